@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/config.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace swiftlet {
+
+/// What the mappings of one file share: its name, its content, and the keys that were asked for.
+struct Config::File {
+  std::string name;
+  std::filesystem::path folder;
+  YAML::Node top;
+  std::map<std::string, std::set<std::string>> known;  // by path of the mapping
+};
+
+namespace {
+
+std::string kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a mapping";
+  if (node.IsSequence()) return "a list";
+  if (node.IsNull()) return "empty";
+  return fmt::format("'{}'", node.Scalar());
+}
+
+/// Whether the whole scalar is a number of the language's own form.
+bool to_number(const YAML::Node& node, double& value) {
+  if (!node.IsScalar() || node.Tag() == "!") return false;
+  return YAML::convert<double>::decode(node, value);
+}
+
+std::string describe(Range range) {
+  const Range all;
+  if (range.min == all.min) return fmt::format("at most {}", range.max);
+  if (range.max == all.max) {
+    return range.min == kPositive.min ? "positive" : fmt::format("at least {}", range.min);
+  }
+  return fmt::format("from {} to {}", range.min, range.max);
+}
+
+std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+std::string item_path(const std::string& path, const std::string& key, std::size_t index) {
+  return fmt::format("{}[{}]", join_path(path, key), index);
+}
+
+}  // namespace
+
+Config::Config() : Config(std::make_shared<File>(), "", YAML::Node(YAML::NodeType::Map)) {}
+Config::Config(std::shared_ptr<File> file, std::string path, const YAML::Node& node)
+    : file_(std::move(file)), path_(std::move(path)), node_(std::make_shared<YAML::Node>(node)) {}
+
+Config Config::load(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw ConfigError(fmt::format("{}: cannot be read; check the path and its permissions",
+                                  file.string()));
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  Config config = parse(text.str(), file.string());
+  config.file_->folder = file.parent_path();
+  return config;
+}
+
+Config Config::parse(const std::string& yaml, const std::string& name) {
+  auto file = std::make_shared<File>();
+  file->name = name;
+  try {
+    file->top = YAML::Load(yaml);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(
+        fmt::format("{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.msg));
+  }
+  if (file->top.IsNull()) file->top = YAML::Node(YAML::NodeType::Map);
+  if (!file->top.IsMap()) {
+    throw ConfigError(fmt::format("{}:1: expected a mapping 'key: value', found {}", name,
+                                  kind_of(file->top)));
+  }
+  return Config(file, "", file->top);
+}
+
+bool Config::has(const std::string& key) const { return find(key).IsDefined(); }
+bool Config::empty() const { return node_->size() == 0; }
+
+std::vector<std::string> Config::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& entry : *node_) keys.push_back(entry.first.Scalar());
+  return keys;
+}
+
+YAML::Node Config::find(const std::string& key) const {
+  file_->known[path_].insert(key);
+  const YAML::Node& node = *node_;
+  return node[key];
+}
+
+void Config::read(const std::string& key, bool& value) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
+    fail(key, fmt::format("'{}' must be true or false, not {}", key, kind_of(node)));
+  }
+}
+
+void Config::read(const std::string& key, int& value, Range range) const {
+  double number = value;
+  read(key, number, range);
+  if (number != std::floor(number) || std::abs(number) > 2e9) {
+    fail(key, fmt::format("'{}' must be a whole number, not {}", key, number));
+  }
+  value = static_cast<int>(number);
+}
+
+void Config::read(const std::string& key, double& value, Range range) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  double number = 0.0;
+  if (!to_number(node, number)) {
+    fail(key, fmt::format("'{}' must be a number, not {}", key, kind_of(node)));
+  }
+  if (!std::isfinite(number)) {
+    fail(key, fmt::format("'{}' must be a finite number, not {}", key, kind_of(node)));
+  }
+  if (number < range.min || number > range.max) {
+    fail(key, fmt::format("'{}' must be {}, not {}", key, describe(range), number));
+  }
+  value = number;
+}
+
+void Config::read(const std::string& key, std::string& value) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  if (!node.IsScalar()) fail(key, fmt::format("'{}' must be a text, not {}", key, kind_of(node)));
+  value = node.Scalar();
+}
+
+void Config::read(const std::string& key, std::vector<double>& value, Range range) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  if (!node.IsSequence()) {
+    fail(key, fmt::format("'{}' must be a list of numbers, not {}", key, kind_of(node)));
+  }
+  std::vector<double> numbers;
+  for (const YAML::Node& item : node) {
+    double number = 0.0;
+    if (!to_number(item, number) || !std::isfinite(number)) {
+      fail(key, fmt::format("'{}' must hold finite numbers, not {}", key, kind_of(item)));
+    }
+    if (number < range.min || number > range.max) {
+      fail(key, fmt::format("each of '{}' must be {}, not {}", key, describe(range), number));
+    }
+    numbers.push_back(number);
+  }
+  value = std::move(numbers);
+}
+
+void Config::read(const std::string& key, std::vector<std::string>& value) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  if (!node.IsSequence()) {
+    fail(key, fmt::format("'{}' must be a list of texts, not {}", key, kind_of(node)));
+  }
+  std::vector<std::string> texts;
+  for (const YAML::Node& item : node) {
+    if (!item.IsScalar()) fail(key, fmt::format("'{}' must hold texts, not {}", key, kind_of(item)));
+    texts.push_back(item.Scalar());
+  }
+  value = std::move(texts);
+}
+
+namespace {
+
+template <class Vector>
+void read_vector(const Config& config, const std::string& key, Vector& value, Range range) {
+  std::vector<double> numbers(value.data(), value.data() + value.size());
+  config.read(key, numbers, range);
+  if (numbers.size() != static_cast<std::size_t>(value.size())) {
+    config.fail(key, fmt::format("'{}' must have {} numbers, not {}", key, value.size(),
+                                 numbers.size()));
+  }
+  std::copy(numbers.begin(), numbers.end(), value.data());
+}
+
+}  // namespace
+
+void Config::read(const std::string& key, Eigen::Vector2d& value, Range range) const {
+  read_vector(*this, key, value, range);
+}
+void Config::read(const std::string& key, Eigen::Vector3d& value, Range range) const {
+  read_vector(*this, key, value, range);
+}
+
+Config Config::child(const std::string& key) const {
+  const YAML::Node node = find(key);
+  const bool given = node.IsDefined() && !node.IsNull();
+  if (given && !node.IsMap()) {
+    fail(key, fmt::format("'{}' must be a mapping, not {}", key, kind_of(node)));
+  }
+  file_->known[join_path(path_, key)];
+  return Config(file_, join_path(path_, key), given ? node : YAML::Node(YAML::NodeType::Map));
+}
+
+std::vector<Config> Config::list(const std::string& key) const {
+  std::vector<Config> items;
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return items;
+  if (!node.IsSequence()) fail(key, fmt::format("'{}' must be a list, not {}", key, kind_of(node)));
+  for (const YAML::Node& item : node) {
+    if (!item.IsMap()) {
+      fail(key, fmt::format("each of '{}' must be a mapping, not {}", key, kind_of(item)));
+    }
+    const std::string path = item_path(path_, key, items.size());
+    file_->known[path];
+    items.push_back(Config(file_, path, item));
+  }
+  return items;
+}
+
+void Config::demand(const std::string& key) const {
+  if (!has(key)) fail({}, fmt::format("'{}' is missing; add it", key));
+}
+
+namespace {
+
+int line_of(const YAML::Node& node) { return node.IsDefined() ? node.Mark().line + 1 : 1; }
+
+}  // namespace
+
+std::string Config::where(const std::string& key) const {
+  int line = line_of(*node_);
+  for (const auto& entry : *node_) {
+    if (entry.first.Scalar() == key) line = line_of(entry.first);
+  }
+  return fmt::format("{}:{}", file_->name, line);
+}
+
+void Config::fail(const std::string& key, const std::string& problem) const {
+  const std::string place = path_.empty() ? "" : fmt::format("in '{}': ", path_);
+  throw ConfigError(fmt::format("{}: {}{}", where(key), place, problem));
+}
+
+void Config::finish() const {
+  std::vector<Config> pending{Config(file_, "", file_->top)};
+  while (!pending.empty()) {
+    const Config config = pending.back();
+    pending.pop_back();
+    const std::set<std::string>& asked = file_->known[config.path_];
+    for (const auto& entry : *config.node_) {
+      const std::string key = entry.first.Scalar();
+      if (asked.count(key) == 0) {
+        const std::vector<std::string> known(asked.begin(), asked.end());
+        const std::string near = nearest_word(key, known);
+        const std::string remedy = near.empty()
+                                       ? fmt::format("known keys are {}", fmt::join(known, ", "))
+                                       : fmt::format("did you mean '{}'?", near);
+        config.fail(key, fmt::format("unknown key '{}'; {}", key, remedy));
+      }
+      // Only mappings that somebody reads have known keys.
+      const auto add = [&](const std::string& path, const YAML::Node& node) {
+        if (node.IsMap() && file_->known.count(path) != 0) pending.push_back({file_, path, node});
+      };
+      add(join_path(config.path_, key), entry.second);
+      for (std::size_t i = 0; entry.second.IsSequence() && i < entry.second.size(); ++i) {
+        add(item_path(config.path_, key, i), entry.second[i]);
+      }
+    }
+  }
+}
+
+std::filesystem::path Config::folder() const { return file_->folder; }
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  // Levenshtein distance, one row at a time.
+  const auto distance = [&word](const std::string& other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= other.size(); ++j) {
+        const std::size_t substitute = diagonal + (word[i - 1] == other[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+      }
+    }
+    return row.back();
+  };
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = distance(candidate);
+    if (d < best_distance) {
+      best_distance = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace swiftlet
