@@ -64,8 +64,8 @@ Config::Config(std::shared_ptr<File> file, std::string path, const YAML::Node& n
 Config Config::load(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file)) {
-    throw ConfigError(fmt::format("{}: cannot be read; check the path and its permissions",
-                                  file.string()));
+    throw ConfigError(
+        fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
   }
   std::ostringstream text;
   text << stream.rdbuf();
@@ -85,14 +85,18 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
   }
   if (file->top.IsNull()) file->top = YAML::Node(YAML::NodeType::Map);
   if (!file->top.IsMap()) {
-    throw ConfigError(fmt::format("{}:1: expected a mapping 'key: value', found {}", name,
-                                  kind_of(file->top)));
+    throw ConfigError(
+        fmt::format("{}:1: expected a mapping 'key: value', found {}", name, kind_of(file->top)));
   }
   return Config(file, "", file->top);
 }
 
-bool Config::has(const std::string& key) const { return find(key).IsDefined(); }
-bool Config::empty() const { return node_->size() == 0; }
+bool Config::has(const std::string& key) const {
+  return find(key).IsDefined();
+}
+bool Config::empty() const {
+  return node_->size() == 0;
+}
 
 std::vector<std::string> Config::keys() const {
   std::vector<std::string> keys;
@@ -174,7 +178,8 @@ void Config::read(const std::string& key, std::vector<std::string>& value) const
   }
   std::vector<std::string> texts;
   for (const YAML::Node& item : node) {
-    if (!item.IsScalar()) fail(key, fmt::format("'{}' must hold texts, not {}", key, kind_of(item)));
+    if (!item.IsScalar())
+      fail(key, fmt::format("'{}' must hold texts, not {}", key, kind_of(item)));
     texts.push_back(item.Scalar());
   }
   value = std::move(texts);
@@ -187,8 +192,8 @@ void read_vector(const Config& config, const std::string& key, Vector& value, Ra
   std::vector<double> numbers(value.data(), value.data() + value.size());
   config.read(key, numbers, range);
   if (numbers.size() != static_cast<std::size_t>(value.size())) {
-    config.fail(key, fmt::format("'{}' must have {} numbers, not {}", key, value.size(),
-                                 numbers.size()));
+    config.fail(
+        key, fmt::format("'{}' must have {} numbers, not {}", key, value.size(), numbers.size()));
   }
   std::copy(numbers.begin(), numbers.end(), value.data());
 }
@@ -234,7 +239,9 @@ void Config::demand(const std::string& key) const {
 
 namespace {
 
-int line_of(const YAML::Node& node) { return node.IsDefined() ? node.Mark().line + 1 : 1; }
+int line_of(const YAML::Node& node) {
+  return node.IsDefined() ? node.Mark().line + 1 : 1;
+}
 
 }  // namespace
 
@@ -279,7 +286,9 @@ void Config::finish() const {
   }
 }
 
-std::filesystem::path Config::folder() const { return file_->folder; }
+std::filesystem::path Config::folder() const {
+  return file_->folder;
+}
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
   // Levenshtein distance, one row at a time.

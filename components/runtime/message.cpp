@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/message.hpp"
+
+#include <fastcdr/Cdr.h>
+#include <fastcdr/exceptions/Exception.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "all_messages.hpp"
+
+namespace swiftlet {
+namespace {
+
+using CdrStream = eprosima::fastcdr::Cdr;
+
+constexpr std::size_t kEncapsulation = 4;
+
+template <class T>
+class GeneratedType : public MessageType {
+ public:
+  GeneratedType(const std::string& package, const std::string& name) : MessageType(package, name) {}
+
+  std::size_t serialized_size(const void* message) const override {
+    return kEncapsulation + T::getCdrSerializedSize(*static_cast<const T*>(message));
+  }
+
+  std::size_t serialize(const void* message, std::uint8_t* buffer,
+                        std::size_t capacity) const override {
+    try {
+      // Alignment is relative to the end of the encapsulation, so that padding must be defined.
+      std::fill_n(buffer, capacity, std::uint8_t{0});
+      eprosima::fastcdr::FastBuffer bytes(reinterpret_cast<char*>(buffer), capacity);
+      CdrStream cdr(bytes, CdrStream::LITTLE_ENDIANNESS, CdrStream::DDS_CDR);
+      cdr.serialize_encapsulation();
+      static_cast<const T*>(message)->serialize(cdr);
+      return cdr.getSerializedDataLength();
+    } catch (const eprosima::fastcdr::exception::Exception&) {
+      return 0;
+    }
+  }
+
+  bool deserialize(const std::uint8_t* bytes, std::size_t size, void* message) const override {
+    try {
+      // fastcdr takes a writable buffer and only reads it.
+      eprosima::fastcdr::FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes)),
+                                           size);
+      CdrStream cdr(buffer, CdrStream::LITTLE_ENDIANNESS, CdrStream::DDS_CDR);
+      cdr.read_encapsulation();
+      static_cast<T*>(message)->deserialize(cdr);
+      return true;
+    } catch (const eprosima::fastcdr::exception::Exception&) {
+      return false;  // too short, or a value that the type cannot have
+    } catch (const std::exception&) {
+      return false;  // a sequence longer than memory: the length is garbage
+    }
+  }
+};
+
+}  // namespace
+
+template <class T>
+const MessageType& message_type() {
+  static_assert(sizeof(T) == 0, "not a message of the IDL files");
+}
+
+#define SWIFTLET_MESSAGE(package, Name)                                   \
+  template <>                                                             \
+  const MessageType& message_type<package::msg::Name>() {                 \
+    static const GeneratedType<package::msg::Name> type(#package, #Name); \
+    return type;                                                          \
+  }
+#include "all_messages.inc"
+#undef SWIFTLET_MESSAGE
+
+const std::vector<const MessageType*>& message_types() {
+  static const std::vector<const MessageType*> types{
+#define SWIFTLET_MESSAGE(package, Name) &message_type<package::msg::Name>(),
+#include "all_messages.inc"
+#undef SWIFTLET_MESSAGE
+  };
+  return types;
+}
+
+const MessageType* find_message_type(const std::string& name) {
+  for (const MessageType* type : message_types()) {
+    if (type->name() == name || type->dds_name() == name) return type;
+  }
+  return nullptr;
+}
+
+std::string ros_type_name(const std::string& dds_name) {
+  const std::string infix = "::dds_::";
+  const std::size_t at = dds_name.find(infix);
+  if (at == std::string::npos || dds_name.back() != '_') return dds_name;
+  std::string name = dds_name.substr(0, at) + "::" +
+                     dds_name.substr(at + infix.size(), dds_name.size() - at - infix.size() - 1);
+  for (std::size_t i = name.find("::"); i != std::string::npos; i = name.find("::")) {
+    name.replace(i, 2, "/");
+  }
+  return name;
+}
+
+std::string dds_type_name(const std::string& ros_name) {
+  const std::size_t last = ros_name.rfind('/');
+  if (last == std::string::npos) return ros_name;
+  std::string name = ros_name.substr(0, last) + "/dds_/" + ros_name.substr(last + 1) + "_";
+  for (std::size_t i = name.find('/'); i != std::string::npos; i = name.find('/')) {
+    name.replace(i, 1, "::");
+  }
+  return name;
+}
+
+}  // namespace swiftlet
