@@ -60,11 +60,6 @@ class GeneratedType : public MessageType {
 
 }  // namespace
 
-template <class T>
-const MessageType& message_type() {
-  static_assert(sizeof(T) == 0, "not a message of the IDL files");
-}
-
 #define SWIFTLET_MESSAGE(package, Name)                                   \
   template <>                                                             \
   const MessageType& message_type<package::msg::Name>() {                 \
