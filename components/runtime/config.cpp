@@ -21,6 +21,7 @@ struct Config::File {
   std::filesystem::path folder;
   YAML::Node top;
   std::map<std::string, std::set<std::string>> known;  // by path of the mapping
+  std::map<std::string, YAML::Node> set_by_hand;       // by path of the value
 };
 
 namespace {
@@ -91,6 +92,14 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
   return Config(file, "", file->top);
 }
 
+void Config::set(const std::string& path, const std::string& value) {
+  try {
+    file_->set_by_hand[path] = YAML::Load(value);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(fmt::format("{}={}: not valid YAML: {}", path, value, error.msg));
+  }
+}
+
 bool Config::has(const std::string& key) const {
   return find(key).IsDefined();
 }
@@ -106,6 +115,8 @@ std::vector<std::string> Config::keys() const {
 
 YAML::Node Config::find(const std::string& key) const {
   file_->known[path_].insert(key);
+  const auto by_hand = file_->set_by_hand.find(join_path(path_, key));
+  if (by_hand != file_->set_by_hand.end()) return by_hand->second;
   const YAML::Node& node = *node_;
   return node[key];
 }
@@ -246,6 +257,10 @@ int line_of(const YAML::Node& node) {
 }  // namespace
 
 std::string Config::where(const std::string& key) const {
+  const auto by_hand = file_->set_by_hand.find(join_path(path_, key));
+  if (by_hand != file_->set_by_hand.end()) {
+    return fmt::format("{}={}", by_hand->first, YAML::Dump(by_hand->second));
+  }
   int line = line_of(*node_);
   for (const auto& entry : *node_) {
     if (entry.first.Scalar() == key) line = line_of(entry.first);
@@ -258,7 +273,27 @@ void Config::fail(const std::string& key, const std::string& problem) const {
   throw ConfigError(fmt::format("{}: {}{}", where(key), place, problem));
 }
 
+namespace {
+
+[[noreturn]] void fail_unknown(const Config& config, const std::string& key,
+                               const std::set<std::string>& known) {
+  const std::string near = nearest_word(key, {known.begin(), known.end()});
+  config.fail(key,
+              fmt::format("unknown key '{}'; {}", key,
+                          near.empty() ? fmt::format("known keys are {}", fmt::join(known, ", "))
+                                       : fmt::format("did you mean '{}'?", near)));
+}
+
+}  // namespace
+
 void Config::finish() const {
+  for (const auto& [path, node] : file_->set_by_hand) {
+    const std::size_t dot = path.rfind('.');
+    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+    const std::string key = path.substr(dot == std::string::npos ? 0 : dot + 1);
+    const std::set<std::string>& known = file_->known[parent];
+    if (known.count(key) == 0) fail_unknown(Config(file_, parent, *node_), key, known);
+  }
   std::vector<Config> pending{Config(file_, "", file_->top)};
   while (!pending.empty()) {
     const Config config = pending.back();
@@ -266,14 +301,7 @@ void Config::finish() const {
     const std::set<std::string>& asked = file_->known[config.path_];
     for (const auto& entry : *config.node_) {
       const std::string key = entry.first.Scalar();
-      if (asked.count(key) == 0) {
-        const std::vector<std::string> known(asked.begin(), asked.end());
-        const std::string near = nearest_word(key, known);
-        const std::string remedy = near.empty()
-                                       ? fmt::format("known keys are {}", fmt::join(known, ", "))
-                                       : fmt::format("did you mean '{}'?", near);
-        config.fail(key, fmt::format("unknown key '{}'; {}", key, remedy));
-      }
+      if (asked.count(key) == 0) fail_unknown(config, key, asked);
       // Only mappings that somebody reads have known keys.
       const auto add = [&](const std::string& path, const YAML::Node& node) {
         if (node.IsMap() && file_->known.count(path) != 0) pending.push_back({file_, path, node});

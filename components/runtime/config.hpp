@@ -47,6 +47,10 @@ class Config {
   /// `name` stands for the file in error messages.
   static Config parse(const std::string& yaml, const std::string& name);
 
+  /// Sets one value by hand, as the command line does; it wins over the file. `path` names the
+  /// mappings above the key too: "estimator.gyro_noise".
+  void set(const std::string& path, const std::string& value);
+
   bool has(const std::string& key) const;
   bool empty() const;
   /// Keys in the order of the file.

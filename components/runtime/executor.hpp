@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "estimation/basics/time.hpp"
+
+namespace swiftlet {
+
+/// Something that can be done for a component when its turn comes, again and again: dispatching
+/// one sample of a subscription, for instance. It outlives its mailbox's use of it.
+class Task {
+ public:
+  virtual ~Task() = default;
+  virtual void run() = 0;
+};
+
+/// What waits to be done for one component. Tasks and timers of one mailbox never run at the same
+/// time, those of different mailboxes may.
+class Mailbox {
+ public:
+  virtual ~Mailbox() = default;
+  /// Notes that `task` shall run once more. From any thread; returns at once.
+  virtual void post(Task& task) = 0;
+  /// Calls `callback` every `period`, first one period after the run began, with the time at which
+  /// it runs. Periods that were missed are not made up for. Only before the run begins.
+  virtual void every(Duration period, std::function<void(Time now)> callback) = 0;
+};
+
+/// Runs components, in one of two ways that components cannot tell apart.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  virtual std::unique_ptr<Mailbox> make_mailbox(const std::string& component) = 0;
+  /// The time of the clock that drives this run.
+  virtual Time now() const = 0;
+  /// Runs until stop() or SIGINT or SIGTERM. Returns the exit code: that of stop(), 0 for a
+  /// signal, and 1 where a component threw an exception (which is logged).
+  virtual int run() = 0;
+  /// From any thread. The first call decides.
+  virtual void stop(int exit_code) = 0;
+};
+
+/// A thread for each component and the system's clock, in nanoseconds since 1970 that never jump.
+std::unique_ptr<Executor> make_live_executor();
+
+/// One thread and a clock that moves on to the next timer only when every mailbox is empty: the
+/// same inputs give the same run, as fast as the processor allows. Needs an isolated participant.
+/// Mailboxes are served in the order in which their tasks were posted, timers that are due at the
+/// same moment in the order in which they were set up.
+std::unique_ptr<Executor> make_lockstep_executor(Time start = Time{});
+
+}  // namespace swiftlet

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/runtime/component.hpp"
+
+namespace swiftlet {
+
+struct HostOptions {
+  ParticipantOptions participant;
+  std::string vehicle;  ///< "" or the prefix of all topics
+  bool lockstep = false;
+};
+
+/// A process that hosts components: one participant, one executor, any number of components.
+class Host {
+ public:
+  explicit Host(const HostOptions& options);
+  ~Host();
+
+  /// Adds a registered component with its section of the parameters. Throws ConfigError where the
+  /// name is not known (naming the nearest that is) or the parameters are refused.
+  Component& add(const std::string& name, const Config& parameters = {});
+  /// Adds a component of the caller's own class.
+  template <class C, class... Args>
+  C& emplace(const std::string& name, Args&&... args) {
+    auto component = std::make_unique<C>(context(name, {}), std::forward<Args>(args)...);
+    C& reference = *component;
+    components_.push_back(std::move(component));
+    return reference;
+  }
+
+  /// Runs until a component stops the run or a signal does; returns the exit code.
+  int run() { return executor_->run(); }
+
+  Executor& executor() { return *executor_; }
+  const std::shared_ptr<Participant>& participant() { return participant_; }
+
+ private:
+  ComponentContext context(const std::string& name, const Config& parameters);
+
+  std::string vehicle_;
+  std::shared_ptr<Participant> participant_;
+  std::unique_ptr<Executor> executor_;
+  std::vector<std::unique_ptr<Component>> components_;
+};
+
+}  // namespace swiftlet

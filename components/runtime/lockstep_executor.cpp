@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "components/runtime/executor.hpp"
+#include "components/runtime/log.hpp"
+#include "components/runtime/signals.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct Timer {
+  Time due;
+  std::uint64_t order;  // of setting up: decides between timers due at the same moment
+  Duration period;
+  std::function<void(Time)> callback;
+};
+
+class LockstepExecutor : public Executor {
+ public:
+  explicit LockstepExecutor(Time start) : now_(start) {}
+
+  std::unique_ptr<Mailbox> make_mailbox(const std::string&) override {
+    return std::make_unique<LockstepMailbox>(*this);
+  }
+
+  Time now() const override { return now_; }
+
+  void stop(int exit_code) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!exit_code_) exit_code_ = exit_code;
+  }
+
+  int run() override {
+    const SignalGuard signals;
+    try {
+      while (!finished()) {
+        if (signals.received()) return 0;
+        if (Task* task = next_task()) {
+          task->run();
+        } else if (!run_next_timer()) {
+          return 0;  // nothing will ever happen again
+        }
+      }
+    } catch (const std::exception& error) {
+      logger("executor")->critical("stopped by an unexpected error: {}", error.what());
+      return 1;
+    }
+    return *exit_code_;
+  }
+
+ private:
+  class LockstepMailbox : public Mailbox {
+   public:
+    explicit LockstepMailbox(LockstepExecutor& executor) : executor_(executor) {}
+    void post(Task& task) override {
+      const std::lock_guard<std::mutex> lock(executor_.mutex_);
+      executor_.tasks_.push_back(&task);
+    }
+    void every(Duration period, std::function<void(Time)> callback) override {
+      executor_.timers_.push_back(
+          {executor_.now_ + period, executor_.timers_.size(), period, std::move(callback)});
+      executor_.due_.push({executor_.timers_.back().due, executor_.timers_.size() - 1});
+    }
+
+   private:
+    LockstepExecutor& executor_;
+  };
+
+  bool finished() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return exit_code_.has_value();
+  }
+
+  Task* next_task() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (tasks_.empty()) return nullptr;
+    Task* task = tasks_.front();
+    tasks_.pop_front();
+    return task;
+  }
+
+  bool run_next_timer() {
+    if (due_.empty()) return false;
+    const auto [due, index] = due_.top();
+    due_.pop();
+    now_ = due;
+    due_.push({due + timers_[index].period, index});
+    timers_[index].callback(due);
+    return true;
+  }
+
+  Time now_;
+  std::mutex mutex_;  // of what other threads may touch: the two below
+  std::deque<Task*> tasks_;
+  std::optional<int> exit_code_;
+  std::vector<Timer> timers_;
+  using Due = std::pair<Time, std::size_t>;
+  std::priority_queue<Due, std::vector<Due>, std::greater<>> due_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_lockstep_executor(Time start) {
+  return std::make_unique<LockstepExecutor>(start);
+}
+
+}  // namespace swiftlet

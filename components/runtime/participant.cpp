@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/participant.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fmt/format.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "components/runtime/discovery_listener.hpp"
+#include "components/runtime/log.hpp"
+#include "components/runtime/wire_type.hpp"
+
+namespace swiftlet {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+/// What Fast DDS has to say goes to our log, not to standard output.
+class LogBridge : public dds::LogConsumer {
+ public:
+  void Consume(const dds::Log::Entry& entry) override {
+    const bool is_error = entry.kind == dds::Log::Kind::Error;
+    logger("dds")->log(is_error ? spdlog::level::warn : spdlog::level::debug, "{} ({})",
+                       entry.message,
+                       entry.context.category == nullptr ? "" : entry.context.category);
+  }
+};
+
+void bridge_log() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<LogBridge>());
+  });
+}
+
+/// Number of processes on one machine that find each other without multicast.
+constexpr int kUnicastPeers = 32;
+constexpr std::uint32_t kSocketBuffer = 4 << 20;
+
+dds::DomainParticipantQos participant_qos(const ParticipantOptions& options) {
+  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+  qos.name(options.name);
+
+  // UDP on the allowed interfaces only. No shared-memory transport: its segments outlive a killed
+  // process and can block the next start.
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList = options.interfaces;
+  udp->maxInitialPeersRange = kUnicastPeers;
+  udp->sendBufferSize = kSocketBuffer;
+  udp->receiveBufferSize = kSocketBuffer;
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports.push_back(udp);
+
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  using eprosima::fastrtps::Duration_t;
+  discovery.leaseDuration = Duration_t(6, 0);
+  discovery.leaseDuration_announcementperiod = Duration_t(1, 500'000'000);
+  discovery.initial_announcements.count = 10;
+  discovery.initial_announcements.period = Duration_t(0, 50'000'000);
+  if (options.isolated) {
+    discovery.ignoreParticipantFlags = static_cast<rtps::ParticipantFilteringFlags_t>(
+        rtps::FILTER_DIFFERENT_HOST | rtps::FILTER_DIFFERENT_PROCESS);
+  }
+  // Unicast to the first participants of this machine: loopback has no multicast route everywhere.
+  rtps::Locator_t local;
+  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, "127.0.0.1", 0, local);
+  rtps::Locator_t multicast;
+  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, "239.255.0.1", 0, multicast);
+  qos.wire_protocol().builtin.initialPeersList.push_back(local);
+  qos.wire_protocol().builtin.initialPeersList.push_back(multicast);
+  return qos;
+}
+
+/// Settings that a reader and a writer have in common.
+template <class Qos>
+void apply_profile(const EndpointSpec& spec, Qos& qos) {
+  qos.reliability().kind =
+      spec.qos.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind =
+      spec.qos.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = spec.qos.depth;
+  qos.resource_limits().max_instances = 1;
+  qos.resource_limits().max_samples = spec.qos.depth;
+  qos.resource_limits().max_samples_per_instance = spec.qos.depth;
+  qos.resource_limits().allocated_samples = std::min(spec.qos.depth, 8);
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  qos.user_data().setValue({spec.component.begin(), spec.component.end()});
+}
+
+}  // namespace
+
+int domain_from_environment() {
+  const char* text = std::getenv("ROS_DOMAIN_ID");
+  if (text == nullptr || *text == '\0') return 0;
+  char* end = nullptr;
+  const long domain = std::strtol(text, &end, 10);
+  if (*end != '\0' || domain < 0 || domain > 232) {
+    throw RuntimeError(fmt::format(
+        "ROS_DOMAIN_ID is '{}'; set it to a whole number from 0 to 232, or unset it", text));
+  }
+  return static_cast<int>(domain);
+}
+
+/// Everything that Fast DDS gives us for one process, deleted in the reverse order.
+class Participant::Impl {
+ public:
+  explicit Impl(const ParticipantOptions& options)
+      : options_(options),
+        graph_([](const Conflict& conflict) { logger("graph")->error(describe(conflict)); }),
+        listener_(graph_) {
+    bridge_log();
+    auto* factory = dds::DomainParticipantFactory::get_instance();
+    participant_ =
+        factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
+                                    participant_qos(options), &listener_, dds::StatusMask::none());
+    if (participant_ == nullptr) {
+      throw RuntimeError(
+          fmt::format("cannot join DDS domain {}: are its UDP ports in use, or is "
+                      "none of the interfaces ({}) up?",
+                      options.domain, fmt::join(options.interfaces, ", ")));
+    }
+    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  }
+
+  ~Impl() {
+    participant_->set_listener(nullptr);
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  dds::DataWriter* make_writer(const EndpointSpec& spec) {
+    dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+    apply_profile(spec, qos);
+    // Fragments of large samples need a sending thread; within one process nothing is sent.
+    const bool asynchronous = spec.qos.large && !options_.isolated;
+    qos.publish_mode().kind =
+        asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+    qos.reliable_writer_qos().times.heartbeatPeriod =
+        eprosima::fastrtps::Duration_t(0, 100'000'000);
+    // A writer waits at most this long for a reliable reader that does not keep up.
+    qos.reliability().max_blocking_time = eprosima::fastrtps::Duration_t(0, 20'000'000);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    dds::DataWriter* writer = publisher_->create_datawriter(topic(spec), qos);
+    if (writer == nullptr) throw RuntimeError(fmt::format("cannot write topic '{}'", spec.topic));
+    graph_.add(endpoint(spec, writer->guid(), true));
+    return writer;
+  }
+
+  dds::DataReader* make_reader(const EndpointSpec& spec, dds::DataReaderListener* listener) {
+    dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+    apply_profile(spec, qos);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    dds::DataReader* reader = subscriber_->create_datareader(topic(spec), qos, listener,
+                                                             dds::StatusMask::data_available()
+                                                                 << dds::StatusMask::sample_lost());
+    if (reader == nullptr) throw RuntimeError(fmt::format("cannot read topic '{}'", spec.topic));
+    graph_.add(endpoint(spec, reader->guid(), false));
+    return reader;
+  }
+
+  void remove(dds::DataWriter* writer) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    graph_.remove(id_of(writer->guid()));
+    publisher_->delete_datawriter(writer);
+  }
+
+  void remove(dds::DataReader* reader) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    graph_.remove(id_of(reader->guid()));
+    reader->set_listener(nullptr);
+    subscriber_->delete_datareader(reader);
+  }
+
+  const Graph& graph() const { return graph_; }
+
+ private:
+  dds::Topic* topic(const EndpointSpec& spec) {
+    dds::Topic*& topic = topics_[spec.topic];
+    if (topic == nullptr) {
+      if (participant_->find_type(spec.type).empty()) {
+        participant_->register_type(dds::TypeSupport(new WireType(spec.type)));
+      }
+      topic = participant_->create_topic(spec.topic, spec.type, dds::TOPIC_QOS_DEFAULT);
+    }
+    if (topic == nullptr || topic->get_type_name() != spec.type) {
+      const std::string other = topic == nullptr ? "nothing" : topic->get_type_name();
+      throw RuntimeError(fmt::format("topic '{}' is used as {} and as {} in one process",
+                                     spec.topic, ros_type_name(other), ros_type_name(spec.type)));
+    }
+    return topic;
+  }
+
+  Endpoint endpoint(const EndpointSpec& spec, const rtps::GUID_t& guid, bool is_writer) const {
+    return {id_of(guid), spec.topic, spec.type, is_writer, spec.qos, spec.component, options_.name};
+  }
+
+  ParticipantOptions options_;
+  Graph graph_;
+  DiscoveryListener listener_;
+  std::mutex mutex_;
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  std::map<std::string, dds::Topic*> topics_;
+};
+
+namespace {
+
+template <class Impl>
+class DdsWriter : public Writer {
+ public:
+  DdsWriter(std::shared_ptr<Impl> impl, const EndpointSpec& spec)
+      : impl_(std::move(impl)), type_(spec.message_type), writer_(impl_->make_writer(spec)) {}
+  ~DdsWriter() override { impl_->remove(writer_); }
+
+  void write(const void* message) override {
+    WireSample sample;
+    sample.type = type_;
+    sample.message = message;
+    writer_->write(&sample);
+  }
+
+  void write(const Cdr& cdr) override {
+    WireSample sample;
+    sample.cdr = &cdr;
+    writer_->write(&sample);
+  }
+
+  int matched_readers() const override {
+    dds::PublicationMatchedStatus status;
+    writer_->get_publication_matched_status(status);
+    return status.current_count;
+  }
+
+ private:
+  std::shared_ptr<Impl> impl_;
+  const MessageType* type_;
+  dds::DataWriter* writer_;
+};
+
+template <class Impl>
+class DdsReader : public Reader, private dds::DataReaderListener {
+ public:
+  DdsReader(std::shared_ptr<Impl> impl, const EndpointSpec& spec, std::function<void()> on_sample)
+      : impl_(std::move(impl)),
+        type_(spec.message_type),
+        on_sample_(std::move(on_sample)),
+        reader_(impl_->make_reader(spec, this)) {}
+  ~DdsReader() override { impl_->remove(reader_); }
+
+  bool take(void* message, SampleOrigin* origin) override {
+    WireSample sample;
+    sample.type = type_;
+    sample.taken_message = message;
+    return take(sample, origin);
+  }
+
+  bool take(Cdr& cdr, SampleOrigin* origin) override {
+    WireSample sample;
+    sample.taken_cdr = &cdr;
+    return take(sample, origin);
+  }
+
+  int matched_writers() const override {
+    dds::SubscriptionMatchedStatus status;
+    reader_->get_subscription_matched_status(status);
+    return status.current_count;
+  }
+
+  std::uint64_t lost() const override { return lost_; }
+
+ private:
+  bool take(WireSample& sample, SampleOrigin* origin) {
+    dds::SampleInfo info;
+    // A sample without data says that a writer is gone; the next may have some.
+    while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+      if (!info.valid_data) continue;
+      if (origin != nullptr) origin->writer = id_of(info.sample_identity.writer_guid());
+      return true;
+    }
+    return false;
+  }
+
+  void on_data_available(dds::DataReader*) override { on_sample_(); }
+  void on_sample_lost(dds::DataReader*, const dds::SampleLostStatus& status) override {
+    lost_ += static_cast<std::uint64_t>(std::max(0, status.total_count_change));
+  }
+
+  std::shared_ptr<Impl> impl_;
+  const MessageType* type_;
+  std::function<void()> on_sample_;
+  std::atomic<std::uint64_t> lost_{0};
+  dds::DataReader* reader_;
+};
+
+}  // namespace
+
+Participant::Participant(const ParticipantOptions& options)
+    : impl_(std::make_shared<Impl>(options)) {}
+Participant::~Participant() = default;
+
+std::unique_ptr<Writer> Participant::make_writer(const EndpointSpec& spec) {
+  return std::make_unique<DdsWriter<Impl>>(impl_, spec);
+}
+
+std::unique_ptr<Reader> Participant::make_reader(const EndpointSpec& spec,
+                                                 std::function<void()> on_sample) {
+  return std::make_unique<DdsReader<Impl>>(impl_, spec, std::move(on_sample));
+}
+
+const Graph& Participant::graph() const {
+  return impl_->graph();
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "components/runtime/graph.hpp"
+#include "components/runtime/message.hpp"
+#include "components/runtime/qos.hpp"
+#include "estimation/basics/time.hpp"
+
+namespace swiftlet {
+
+/// The middleware could not be started or used; `what()` says why and what to do.
+class RuntimeError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ParticipantOptions {
+  std::string name = "swiftlet";  ///< of the process, as others see it
+  int domain = 0;                 ///< DDS domain, 0 to 232
+  /// Addresses of the interfaces that traffic may use. Nothing leaves this machine by default.
+  std::vector<std::string> interfaces = {"127.0.0.1"};
+  /// Hear and be heard by this process alone: samples are then delivered in the writer's thread.
+  bool isolated = false;
+};
+
+/// The domain that ROS_DOMAIN_ID asks for, 0 where it is not set. Throws RuntimeError where it is
+/// not a whole number from 0 to 232.
+int domain_from_environment();
+
+/// Where one sample came from.
+struct SampleOrigin {
+  std::string writer;  ///< Endpoint::id of the writer
+};
+
+/// Sends samples of one topic. Not for use by several threads at once.
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  /// `message` points to an object of the type that the writer was made for.
+  virtual void write(const void* message) = 0;
+  virtual void write(const Cdr& cdr) = 0;
+  /// Readers that get what is written, in whichever process.
+  virtual int matched_readers() const = 0;
+};
+
+/// Holds the samples of one topic until they are taken.
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  /// The oldest sample that was not taken yet; false where there is none. `message` points to an
+  /// object of the type that the reader was made for.
+  virtual bool take(void* message, SampleOrigin* origin = nullptr) = 0;
+  virtual bool take(Cdr& cdr, SampleOrigin* origin = nullptr) = 0;
+  virtual int matched_writers() const = 0;
+  /// Samples that DDS reports as lost on the way.
+  virtual std::uint64_t lost() const = 0;
+};
+
+/// What one end of a topic is made from.
+struct EndpointSpec {
+  std::string topic;  ///< as on the wire: "rt/imu0"
+  std::string type;   ///< as on the wire: "sensor_msgs::msg::dds_::Imu_"
+  QosProfile qos;
+  std::string component;  ///< who asks for it
+  /// Null for types that the IDL files lack: those are only written and taken as CDR.
+  const MessageType* message_type = nullptr;
+};
+
+/// A process's place in a DDS domain. Readers and writers keep it alive. Safe to use from any
+/// thread.
+class Participant {
+ public:
+  explicit Participant(const ParticipantOptions& options);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  std::unique_ptr<Writer> make_writer(const EndpointSpec& spec);
+  /// `on_sample` is called for each sample that arrives, by a thread of the middleware (or by the
+  /// writer's, in an isolated participant); it must only take note.
+  std::unique_ptr<Reader> make_reader(const EndpointSpec& spec, std::function<void()> on_sample);
+
+  const Graph& graph() const;
+
+ private:
+  class Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet

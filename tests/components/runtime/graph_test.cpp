@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/graph.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swiftlet {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Endpoint endpoint(const std::string& id, bool is_writer, const QosProfile& qos,
+                  const std::string& type = "sensor_msgs::msg::dds_::Imu_") {
+  return {id, "rt/imu0", type, is_writer, qos, is_writer ? "sim" : "estimator", "p" + id};
+}
+
+struct GraphTest : ::testing::Test {
+  std::vector<Conflict> reported;
+  Graph graph{[this](const Conflict& conflict) { reported.push_back(conflict); }};
+};
+
+TEST_F(GraphTest, FittingEndsAreNoConflict) {
+  graph.add(endpoint("1", true, qos::state));
+  graph.add(endpoint("2", false, qos::sensor));
+  graph.add(endpoint("3", true, qos::map));
+  EXPECT_TRUE(reported.empty());
+  EXPECT_EQ(graph.endpoints().size(), 3u);
+}
+
+TEST_F(GraphTest, QosConflictIsReportedOnceAndNamesPolicyAndBothEnds) {
+  graph.add(endpoint("1", true, qos::sensor));
+  graph.add(endpoint("2", false, qos::state));
+  graph.add(endpoint("2", false, qos::state));  // announced again
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_THAT(
+      describe(reported[0]),
+      AllOf(HasSubstr("rt/imu0"), HasSubstr("offered best effort, requested reliable"),
+            HasSubstr("'sim'"), HasSubstr("'estimator'"), HasSubstr("p1"), HasSubstr("p2")));
+  graph.remove("1");
+  EXPECT_TRUE(graph.conflicts().empty());
+}
+
+TEST_F(GraphTest, DurabilityAndTypeConflictsAreFoundWhicheverEndComesFirst) {
+  graph.add(endpoint("1", false, qos::map));
+  graph.add(endpoint("2", true, qos::state));
+  graph.add(endpoint("3", true, qos::map, "std_msgs::msg::dds_::Header_"));
+  ASSERT_EQ(reported.size(), 2u);
+  EXPECT_THAT(reported[0].problem, HasSubstr("durability"));
+  EXPECT_THAT(reported[1].problem,
+              AllOf(HasSubstr("std_msgs/msg/Header"), HasSubstr("sensor_msgs/msg/Imu")));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "all_messages.hpp"
+
+namespace swiftlet {
+namespace {
+
+TEST(Message, NamesAreThoseOfRos2) {
+  const MessageType& type = message_type<sensor_msgs::msg::Imu>();
+  EXPECT_EQ(type.name(), "sensor_msgs/msg/Imu");
+  EXPECT_EQ(type.dds_name(), "sensor_msgs::msg::dds_::Imu_");
+  EXPECT_EQ(find_message_type("sensor_msgs/msg/Imu"), &type);
+  EXPECT_EQ(find_message_type("sensor_msgs::msg::dds_::Imu_"), &type);
+  EXPECT_EQ(find_message_type("sensor_msgs/msg/Imv"), nullptr);
+}
+
+TEST(Message, NamesConvertBothWaysForAllTypes) {
+  std::set<std::string> names;
+  for (const MessageType* type : message_types()) {
+    EXPECT_EQ(ros_type_name(type->dds_name()), type->name());
+    EXPECT_EQ(dds_type_name(type->name()), type->dds_name());
+    names.insert(type->name());
+  }
+  EXPECT_EQ(names.size(), message_types().size());
+}
+
+TEST(Message, CdrIsLaidOutByTheRules) {
+  // XCDR1, little endian: long, unsigned long, string with length and terminating zero.
+  std_msgs::msg::Header header;
+  header.stamp().sec(1);
+  header.stamp().nanosec(2);
+  header.frame_id("map");
+  EXPECT_EQ(to_cdr(header),
+            (Cdr{0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 'm', 'a', 'p', 0}));
+}
+
+TEST(Message, RoundTripKeepsEveryField) {
+  sensor_msgs::msg::LaserScan scan;
+  scan.header().frame_id("laser");
+  scan.angle_min(-1.5f);
+  scan.ranges({1.0f, 2.0f, 3.0f});
+  const auto back = from_cdr<sensor_msgs::msg::LaserScan>(to_cdr(scan));
+  ASSERT_TRUE(back.ok());
+  EXPECT_TRUE(*back == scan);
+}
+
+TEST(Message, TheSameMessageAlwaysHasTheSameBytes) {
+  // Padding between a boolean and a double must not be what happened to be in memory.
+  swiftlet_msgs::msg::MotorCommand command;
+  command.armed(true);
+  const Cdr first = to_cdr(command);
+  for (int i = 0; i < 100; ++i) {
+    const Cdr noise(first.size(), static_cast<std::uint8_t>(i));
+    EXPECT_EQ(to_cdr(command), first);
+  }
+}
+
+TEST(Message, BrokenBytesAreRefusedNotTrusted) {
+  sensor_msgs::msg::LaserScan scan;
+  scan.ranges(std::vector<float>(50, 1.0f));
+  const Cdr good = to_cdr(scan);
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    const Cdr cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_FALSE(from_cdr<sensor_msgs::msg::LaserScan>(cut).ok()) << size;
+  }
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    Cdr flipped = good;
+    flipped[random() % flipped.size()] = static_cast<std::uint8_t>(random());
+    (void)from_cdr<sensor_msgs::msg::LaserScan>(flipped);  // may fail, must not crash
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
