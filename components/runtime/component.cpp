@@ -23,16 +23,30 @@ void Component::every(Duration period, std::function<void(Time)> callback) {
   mailbox_->every(period, std::move(callback));
 }
 
+void Component::call_at(Time time, std::function<void(Time)> callback) {
+  mailbox_->call_at(time, std::move(callback));
+}
+
 std::shared_ptr<Writer> Component::make_writer(const char* topic, const MessageType& type,
                                                const QosProfile& qos) {
   return context_.participant->make_writer(
       {wire_topic(context_.vehicle, topic), type.dds_name(), qos, context_.name, &type});
 }
 
+std::shared_ptr<Writer> Component::advertise_raw(const std::string& wire_topic,
+                                                 const std::string& dds_type,
+                                                 const QosProfile& qos) {
+  return context_.participant->make_writer({wire_topic, dds_type, qos, context_.name, nullptr});
+}
+
 void Component::add_subscription(std::unique_ptr<SubscriptionTask> subscription, const char* topic,
                                  const MessageType& type, const QosProfile& qos) {
-  subscription->listen(*context_.participant, {wire_topic(context_.vehicle, topic), type.dds_name(),
-                                               qos, context_.name, &type});
+  listen(std::move(subscription),
+         {wire_topic(context_.vehicle, topic), type.dds_name(), qos, context_.name, &type});
+}
+
+void Component::listen(std::unique_ptr<SubscriptionTask> subscription, const EndpointSpec& spec) {
+  subscription->listen(*context_.participant, spec);
   subscriptions_.push_back(std::move(subscription));
 }
 

@@ -33,6 +33,8 @@ class Publisher {
   Publisher() = default;
   explicit Publisher(std::shared_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void publish(const T& message) { writer_->write(&message); }
+  /// Readers that get what is published, in whichever process.
+  int matched_readers() const { return writer_->matched_readers(); }
 
  private:
   std::shared_ptr<Writer> writer_;
@@ -42,6 +44,7 @@ class Publisher {
 struct ComponentContext {
   std::string name;     ///< of the component, "estimator"
   std::string vehicle;  ///< "" or the prefix of its topics
+  int domain = 0;          ///< DDS domain
   std::shared_ptr<Participant> participant;
   Executor* executor = nullptr;  ///< outlives the component
   Config parameters;             ///< the component's own section
@@ -76,7 +79,18 @@ class Component {
                      topic.name, message_type<T>(), topic.qos);
   }
 
+  /// The same for bytes, of types that need not be known: topic and type as on the wire.
+  std::shared_ptr<Writer> advertise_raw(const std::string& wire_topic, const std::string& dds_type,
+                                        const QosProfile& qos);
+  template <class Callback>
+  void subscribe_raw(const std::string& wire_topic, const std::string& dds_type,
+                     const QosProfile& qos, Callback callback) {
+    listen(std::make_unique<RawSubscription<Callback>>(*mailbox_, std::move(callback)),
+           {wire_topic, dds_type, qos, name(), nullptr});
+  }
+
   void every(Duration period, std::function<void(Time now)> callback);
+  void call_at(Time time, std::function<void(Time now)> callback);
   Time now() const { return context_.executor->now(); }
   /// Ends the whole run.
   void stop(int exit_code) { context_.executor->stop(exit_code); }
@@ -118,6 +132,21 @@ class Component {
     Callback callback_;
   };
 
+  template <class Callback>
+  class RawSubscription : public SubscriptionTask {
+   public:
+    RawSubscription(Mailbox& mailbox, Callback callback)
+        : SubscriptionTask(mailbox), callback_(std::move(callback)) {}
+    void dispatch_one(Reader& reader) override {
+      if (reader.take(cdr_)) callback_(std::as_const(cdr_));
+    }
+
+   private:
+    Cdr cdr_;
+    Callback callback_;
+  };
+
+  void listen(std::unique_ptr<SubscriptionTask> subscription, const EndpointSpec& spec);
   std::shared_ptr<Writer> make_writer(const char* topic, const MessageType& type,
                                       const QosProfile& qos);
   void add_subscription(std::unique_ptr<SubscriptionTask> subscription, const char* topic,

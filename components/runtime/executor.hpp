@@ -28,6 +28,9 @@ class Mailbox {
   /// Calls `callback` every `period`, first one period after the run began, with the time at which
   /// it runs. Periods that were missed are not made up for. Only before the run begins.
   virtual void every(Duration period, std::function<void(Time now)> callback) = 0;
+  /// Calls `callback` once at `time`, or at once where that has passed. Before the run begins, or
+  /// from a callback of this mailbox.
+  virtual void call_at(Time time, std::function<void(Time now)> callback) = 0;
 };
 
 /// Runs components, in one of two ways that components cannot tell apart.

@@ -17,8 +17,9 @@ ParticipantOptions participant_options(const HostOptions& options) {
 
 Host::Host(const HostOptions& options)
     : vehicle_(options.vehicle),
+      domain_(options.participant.domain),
       participant_(std::make_shared<Participant>(participant_options(options))),
-      executor_(options.lockstep ? make_lockstep_executor() : make_live_executor()) {}
+      executor_(options.lockstep ? make_lockstep_executor(options.start) : make_live_executor()) {}
 
 Host::~Host() {
   // Components refer to executor and participant: they go first, the last one first.
@@ -42,7 +43,7 @@ Component& Host::add(const std::string& name, const Config& parameters) {
 }
 
 ComponentContext Host::context(const std::string& name, const Config& parameters) {
-  return {name, vehicle_, participant_, executor_.get(), parameters};
+  return {name, vehicle_, domain_, participant_, executor_.get(), parameters};
 }
 
 }  // namespace swiftlet

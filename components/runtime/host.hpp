@@ -14,6 +14,7 @@ struct HostOptions {
   ParticipantOptions participant;
   std::string vehicle;  ///< "" or the prefix of all topics
   bool lockstep = false;
+  Time start{};  ///< where the clock of a lockstep run begins
 };
 
 /// A process that hosts components: one participant, one executor, any number of components.
@@ -37,6 +38,7 @@ class Host {
   /// Runs until a component stops the run or a signal does; returns the exit code.
   int run() { return executor_->run(); }
 
+  int domain() const { return domain_; }
   Executor& executor() { return *executor_; }
   const std::shared_ptr<Participant>& participant() { return participant_; }
 
@@ -44,6 +46,7 @@ class Host {
   ComponentContext context(const std::string& name, const Config& parameters);
 
   std::string vehicle_;
+  int domain_;
   std::shared_ptr<Participant> participant_;
   std::unique_ptr<Executor> executor_;
   std::vector<std::unique_ptr<Component>> components_;

@@ -13,6 +13,7 @@
 #include "components/runtime/executor.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/signals.hpp"
+#include "components/runtime/timers.hpp"
 
 namespace swiftlet {
 namespace {
@@ -27,12 +28,6 @@ Time time_at(Steady::time_point steady) {
       std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())};
   return start + std::chrono::duration_cast<Duration>(steady - steady_start);
 }
-
-struct Timer {
-  Steady::time_point due;
-  Duration period;
-  std::function<void(Time)> callback;
-};
 
 class LiveExecutor : public Executor {
  public:
@@ -87,7 +82,12 @@ class LiveExecutor : public Executor {
     }
 
     void every(Duration period, std::function<void(Time)> callback) override {
-      timers_.push_back({{}, period, std::move(callback)});
+      timers_.every(Steady::now() + period, period, std::move(callback));
+    }
+
+    void call_at(Time time, std::function<void(Time)> callback) override {
+      const Steady::time_point steady = Steady::now();
+      timers_.once(steady + (time - time_at(steady)), std::move(callback));
     }
 
     void start() {
@@ -112,14 +112,13 @@ class LiveExecutor : public Executor {
 
    private:
     void serve() {
-      const Steady::time_point start = Steady::now();
-      for (Timer& timer : timers_) timer.due = start + timer.period;
       std::unique_lock<std::mutex> lock(mutex_);
       while (!finished_) {
-        Timer* timer = earliest();
-        if (timer != nullptr && timer->due <= Steady::now()) {
+        const bool timer_is_due = !timers_.empty() && timers_.next() <= Steady::now();
+        if (timer_is_due) {
           lock.unlock();
-          fire(*timer);
+          const Steady::time_point now = Steady::now();
+          timers_.fire(now, time_at(now));
           lock.lock();
         } else if (!tasks_.empty()) {
           Task* task = tasks_.front();
@@ -127,25 +126,12 @@ class LiveExecutor : public Executor {
           lock.unlock();
           task->run();
           lock.lock();
-        } else if (timer != nullptr) {
-          changed_.wait_until(lock, timer->due);
+        } else if (!timers_.empty()) {
+          changed_.wait_until(lock, timers_.next());
         } else {
           changed_.wait(lock);
         }
       }
-    }
-
-    Timer* earliest() {
-      const auto found =
-          std::min_element(timers_.begin(), timers_.end(),
-                           [](const Timer& a, const Timer& b) { return a.due < b.due; });
-      return found == timers_.end() ? nullptr : &*found;
-    }
-
-    static void fire(Timer& timer) {
-      const Steady::time_point now = Steady::now();
-      timer.due += timer.period * std::max<std::int64_t>(1, (now - timer.due) / timer.period);
-      timer.callback(time_at(now));
     }
 
     LiveExecutor& executor_;
@@ -154,7 +140,7 @@ class LiveExecutor : public Executor {
     std::condition_variable changed_;
     std::deque<Task*> tasks_;
     bool finished_ = false;
-    std::vector<Timer> timers_;
+    Timers<Steady::time_point> timers_;
     std::thread thread_;
   };
 

@@ -1,25 +1,18 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <deque>
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <queue>
-#include <vector>
 
 #include "components/runtime/executor.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/signals.hpp"
+#include "components/runtime/timers.hpp"
 
 namespace swiftlet {
 namespace {
-
-struct Timer {
-  Time due;
-  std::uint64_t order;  // of setting up: decides between timers due at the same moment
-  Duration period;
-  std::function<void(Time)> callback;
-};
 
 class LockstepExecutor : public Executor {
  public:
@@ -63,9 +56,10 @@ class LockstepExecutor : public Executor {
       executor_.tasks_.push_back(&task);
     }
     void every(Duration period, std::function<void(Time)> callback) override {
-      executor_.timers_.push_back(
-          {executor_.now_ + period, executor_.timers_.size(), period, std::move(callback)});
-      executor_.due_.push({executor_.timers_.back().due, executor_.timers_.size() - 1});
+      executor_.timers_.every(executor_.now_ + period, period, std::move(callback));
+    }
+    void call_at(Time time, std::function<void(Time)> callback) override {
+      executor_.timers_.once(time, std::move(callback));
     }
 
    private:
@@ -86,22 +80,17 @@ class LockstepExecutor : public Executor {
   }
 
   bool run_next_timer() {
-    if (due_.empty()) return false;
-    const auto [due, index] = due_.top();
-    due_.pop();
-    now_ = due;
-    due_.push({due + timers_[index].period, index});
-    timers_[index].callback(due);
+    if (timers_.empty()) return false;
+    now_ = std::max(now_, timers_.next());
+    timers_.fire(now_, now_);
     return true;
   }
 
   Time now_;
+  Timers<Time> timers_;
   std::mutex mutex_;  // of what other threads may touch: the two below
   std::deque<Task*> tasks_;
   std::optional<int> exit_code_;
-  std::vector<Timer> timers_;
-  using Due = std::pair<Time, std::size_t>;
-  std::priority_queue<Due, std::vector<Due>, std::greater<>> due_;
 };
 
 }  // namespace

@@ -11,10 +11,10 @@ inline constexpr double kGravity = 9.80665;
 
 /// Where a rigid body is and how it moves. World W is ENU, body B is FLU (REP-103, REP-105).
 struct RigidBodyState {
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();              ///< position [m]
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();    ///< attitude, body to world
-  Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();            ///< velocity in the world [m/s]
-  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();            ///< angular velocity in the body [rad/s]
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();            ///< position [m]
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  ///< attitude, body to world
+  Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();          ///< velocity in the world [m/s]
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< angular velocity in the body [rad/s]
 };
 
 /// What a multirotor is asked to do at one moment: its flat outputs (position and yaw) and their

@@ -26,6 +26,14 @@ Eigen::Quaterniond exp_so3(const Eigen::Vector3d& phi);
 /// q and -q give the same vector.
 Eigen::Vector3d log_so3(const Eigen::Quaterniond& q);
 
+/// Integral of exp(s phi) over s from 0 to 1, the left Jacobian of SO(3):
+/// exp(phi + d) = exp(left_jacobian_so3(phi) d) exp(phi) to first order in d.
+Eigen::Matrix3d left_jacobian_so3(const Eigen::Vector3d& phi);
+
+/// Integral of s left_jacobian_so3(s phi) over s from 0 to 1: what a constant specific force in a
+/// body that turns by `phi` adds to its position.
+Eigen::Matrix3d left_jacobian_integral_so3(const Eigen::Vector3d& phi);
+
 /// Heading [rad] in (-pi, pi] of the body's x axis, seen from above.
 double yaw_of(const Eigen::Quaterniond& q);
 

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "components/bag/mcap/reader.hpp"
+#include "components/bag/mcap/verify.hpp"
+
+namespace swiftlet {
+
+/// What is in a recording, for people and for scripts.
+std::string describe(const mcap::Reader& reader);
+nlohmann::json to_json(const mcap::Reader& reader);
+
+/// What `verify` found, for scripts. `file` names the recording.
+nlohmann::json to_json(const std::string& file, const mcap::Verification& verification);
+
+/// The text with control characters replaced: names in a file must not steer the terminal.
+std::string printable(std::string text);
+
+}  // namespace swiftlet

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/bag/convert_carmen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "components/bag/idl_schema.hpp"
+#include "components/bag/mcap/writer.hpp"
+#include "components/runtime/message.hpp"
+#include "nav_msgs.h"
+#include "sensor_msgs.h"
+
+namespace swiftlet {
+namespace {
+
+using carmen::Pose;
+
+constexpr const char* kLaserFrame = "laser";
+/// What rosbag2 writes for a reliable topic with a queue of 10.
+constexpr const char* kQosProfile =
+    "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n"
+    "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  liveliness: 1\n"
+    "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  avoid_ros_namespace_conventions: false";
+
+template <class Header>
+void fill_header(Header& header, Time time, const std::string& frame) {
+  const auto ns = time.time_since_epoch().count();
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  header.stamp().sec(static_cast<std::int32_t>(ns / kSecond));
+  header.stamp().nanosec(static_cast<std::uint32_t>(ns % kSecond));
+  header.frame_id(frame);
+}
+
+sensor_msgs::msg::LaserScan to_message(const carmen::Scan& scan) {
+  sensor_msgs::msg::LaserScan message;
+  fill_header(message.header(), scan.time, kLaserFrame);
+  const double beams = static_cast<double>(std::max<std::size_t>(scan.ranges.size(), 1));
+  message.angle_min(static_cast<float>(scan.angle_min));
+  message.angle_max(static_cast<float>(scan.angle_min + (beams - 1.0) * scan.angle_increment));
+  message.angle_increment(static_cast<float>(scan.angle_increment));
+  message.range_min(0.01F);  // CARMEN has none; a range of 0 is a beam that failed
+  message.range_max(static_cast<float>(scan.max_range));
+  message.ranges(scan.ranges);
+  message.intensities(scan.intensities);
+  return message;
+}
+
+nav_msgs::msg::Odometry to_message(Time time, const Pose& laser, const std::string& frame) {
+  nav_msgs::msg::Odometry message;
+  fill_header(message.header(), time, frame);
+  message.child_frame_id(kLaserFrame);
+  message.pose().pose().position().x(laser.x);
+  message.pose().pose().position().y(laser.y);
+  message.pose().pose().orientation().z(std::sin(0.5 * laser.theta));
+  message.pose().pose().orientation().w(std::cos(0.5 * laser.theta));
+  return message;
+}
+
+/// A line of the log that becomes one or two messages; exactly one of the two is set.
+struct Event {
+  Time time;
+  std::size_t line = 0;
+  const carmen::Scan* scan = nullptr;
+  const carmen::Odometry* odometry = nullptr;
+};
+
+/// In the order of time, lines of one time in that of the log. An ODOM line of the same time as a
+/// scan is left out: the scan has a pose of its own.
+std::vector<Event> events_of(const carmen::Log& log) {
+  std::vector<Event> events;
+  for (const carmen::Scan& scan : log.scans)
+    events.push_back({scan.time, scan.line, &scan, nullptr});
+  const auto scan_at = [&](Time time) {
+    const auto found =
+        std::lower_bound(log.scans.begin(), log.scans.end(), time,
+                         [](const carmen::Scan& scan, Time moment) { return scan.time < moment; });
+    return found != log.scans.end() && found->time == time && found->has_pose;
+  };
+  for (const carmen::Odometry& odometry : log.odometry) {
+    if (log.corrected || scan_at(odometry.time)) continue;
+    events.push_back({odometry.time, odometry.line, nullptr, &odometry});
+  }
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return std::make_pair(a.time, a.line) < std::make_pair(b.time, b.line);
+  });
+  return events;
+}
+
+/// One topic of the file, with the counter that MCAP wants.
+template <class T>
+class Topic {
+ public:
+  Status open(mcap::Writer& writer, const std::string& name) {
+    const std::string& type = message_type<T>().name();
+    const auto text = idl_schema(type);
+    if (!text.ok()) return text.error();
+    const auto schema = writer.add_schema(type, "ros2idl", std::string_view(*text));
+    if (!schema.ok()) return schema.error();
+    const auto channel =
+        writer.add_channel(name, "cdr", *schema, {{"offered_qos_profiles", kQosProfile}});
+    if (!channel.ok()) return channel.error();
+    channel_ = *channel;
+    return {};
+  }
+
+  Status write(mcap::Writer& writer, Time time, const T& message) {
+    const Cdr cdr = to_cdr(message);
+    const mcap::Timestamp stamp = mcap::to_timestamp(time);
+    return writer.write(mcap::Message{channel_, count_++, stamp, stamp, cdr});
+  }
+
+  std::uint32_t count() const { return count_; }
+
+ private:
+  std::uint16_t channel_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+Status write_all(const carmen::Log& log, mcap::Writer& writer, Conversion& conversion) {
+  Topic<sensor_msgs::msg::LaserScan> scans;
+  Topic<nav_msgs::msg::Odometry> poses;
+  if (const Status done = scans.open(writer, "scan"); !done.ok()) return done;
+  if (const Status done = poses.open(writer, "odometry"); !done.ok()) return done;
+  if (const Status done = writer.write(mcap::Metadata{
+          "carmen",
+          {{"poses", log.corrected ? "corrected" : "odometry"}, {"clock", "ipc_time of the log"}}});
+      !done.ok()) {
+    return done;
+  }
+  const std::string frame = log.corrected ? "map" : "odom";
+  for (const Event& event : events_of(log)) {
+    Status done;
+    if (event.odometry != nullptr) {
+      const Pose laser = compose(event.odometry->pose, log.laser_on_robot);
+      auto message = to_message(event.time, laser, frame);
+      message.twist().twist().linear().x(event.odometry->forward_speed);
+      message.twist().twist().angular().z(event.odometry->yaw_rate);
+      done = poses.write(writer, event.time, message);
+    } else {
+      if (event.scan->has_pose) {
+        done =
+            poses.write(writer, event.time, to_message(event.time, event.scan->laser_pose, frame));
+      }
+      if (done.ok()) done = scans.write(writer, event.time, to_message(*event.scan));
+    }
+    if (!done.ok()) return done;
+  }
+  conversion.scans = scans.count();
+  conversion.poses = poses.count();
+  return writer.close();
+}
+
+}  // namespace
+
+Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem::path& output) {
+  std::filesystem::path partial = output;
+  partial += ".partial";
+  mcap::WriterParams params;
+  params.profile = "ros2";
+  params.overwrite = true;
+  params.chunk_duration = Duration::zero();  // nothing is lost with a conversion that is cut
+  auto writer = mcap::Writer::open(partial, params);
+  if (!writer.ok()) return writer.error();
+
+  Conversion conversion;
+  conversion.corrected = log.corrected;
+  for (const auto& [keyword, count] : log.skipped) conversion.skipped_lines += count;
+  Status done = write_all(log, *writer, conversion);
+  std::error_code error;
+  if (done.ok()) {
+    std::filesystem::rename(partial, output, error);
+    if (error) done = Error{output.string() + ": cannot be put in place: " + error.message()};
+  }
+  if (done.ok()) return conversion;
+  std::filesystem::remove(partial, error);
+  return done.error();
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "components/bag/bag_commands.hpp"
+#include "components/bag/live_commands.hpp"
+#include "components/cli/verbs.hpp"
+#include "components/runtime/component.hpp"
+#include "components/runtime/log.hpp"
+#include "gcs/gcs_commands.hpp"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+
+/// CLI11 only says that an argument was not expected; a person wants to know which verbs there are.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* group = &app;
+  while (!group->get_subcommands().empty()) group = group->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::App* verb : group->get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(verb->get_name());
+  }
+  const std::vector<std::string> rest = app.remaining(true);
+  if (names.empty() || rest.empty() || rest.front()[0] == '-') return error.what();
+  const std::string near = swiftlet::nearest_word(rest.front(), names);
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return "unknown verb '" + rest.front() + "'; " +
+         (near.empty() ? "there are " + all : "did you mean '" + near + "'?");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Swiftlet: a flight stack for small multirotors on plain DDS", "swiftlet"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", SWIFTLET_VERSION);
+  app.add_option_function<std::string>(
+      "--log",
+      [](const std::string& level) {
+        if (!swiftlet::set_log_level(level)) {
+          throw CLI::ValidationError("--log", "is trace, debug, info, warning, error or off");
+        }
+      },
+      "Least important log lines to show: trace, debug, info, warning, error, off");
+
+  swiftlet::add_fly(app);
+  swiftlet::add_run(app);
+  swiftlet::add_gcs_commands(*app.add_subcommand("gcs", "Ground station: commands and status"));
+  CLI::App* bag = app.add_subcommand("bag", "Recordings in MCAP");
+  swiftlet::add_bag_commands(*bag);
+  swiftlet::add_live_bag_commands(*bag);
+  swiftlet::add_replay(app);
+  swiftlet::add_component(app);
+
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::RuntimeError& result) {
+    return result.get_exit_code();  // the verb has said why
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "swiftlet: %s\nTry: swiftlet --help\n", explain(app, error).c_str());
+    return kWrongUsage;
+  } catch (const swiftlet::ConfigError& error) {
+    std::fprintf(stderr, "swiftlet: %s\n", error.what());
+    return kWrongUsage;
+  } catch (const swiftlet::RuntimeError& error) {
+    std::fprintf(stderr, "swiftlet: %s\n", error.what());
+    return kFailed;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "swiftlet: unexpected error: %s\n", error.what());
+    return kFailed;
+  }
+}

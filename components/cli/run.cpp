@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "components/cli/verbs.hpp"
+#include "components/runtime/command_line.hpp"
+
+namespace swiftlet {
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> components;
+  std::string scenario;
+  ParameterOptions parameters;
+  NetworkOptions network;
+};
+
+int run(const RunOptions& options) {
+  Config parameters = options.parameters.load();
+  Host host(options.network.host_options(fmt::format("{}", fmt::join(options.components, "+"))));
+  for (const std::string& name : options.components) {
+    // One scenario for all who need one.
+    if (!options.scenario.empty() && (name == "sim" || name == "pilot")) {
+      parameters.set(name + ".scenario", options.scenario);
+    }
+    Component& component = host.add(name, parameters.child(name));
+    logger("run")->info("hosting {}", component.name());
+  }
+  ParameterOptions::finish(parameters, options.components);
+  return host.run();
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* verb = app.add_subcommand("run", "Host components on this machine");
+  verb->add_option("components", options->components, "See: swiftlet component list")->required();
+  verb->add_option("--scenario", options->scenario, "Scenario file of the simulator and the pilot");
+  options->parameters.add_to(*verb);
+  options->network.add_to(*verb);
+  verb->callback([options] {
+    if (const int code = run(*options); code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+void add_component(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("component", "Components of this program");
+  verb->require_subcommand(1);
+  verb->add_subcommand("list", "Names and purposes")->callback([] {
+    for (const auto& entry : ComponentRegistry::instance().entries()) {
+      fmt::print("{:20} {}\n", entry.name, entry.summary);
+    }
+  });
+}
+
+}  // namespace swiftlet

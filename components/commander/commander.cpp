@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <deque>
+
+#include "components/commander/mission_message.hpp"
+#include "components/conversions.hpp"
+#include "components/planner/trajectory_message.hpp"
+#include "components/topics.hpp"
+#include "control/flight_director.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kTick = 10ms;
+constexpr int kGoalEvery = 10;    // ticks
+constexpr int kStatusEvery = 10;  // ticks
+/// Commands that were answered, kept so that one that comes again is not carried out again.
+constexpr std::size_t kRememberedCommands = 64;
+
+FlightDirector::Params read_params(const Config& config) {
+  FlightDirector::Params params;
+  config.read("min_altitude", params.modes.min_altitude, kPositive);
+  config.read("max_altitude", params.modes.max_altitude, kPositive);
+  config.read("takeoff_speed", params.takeoff.velocity, kPositive);
+  config.read("landing_speed", params.landing.velocity, kPositive);
+  config.read("braking_acceleration", params.braking.acceleration, kPositive);
+  config.read("arrival_distance", params.arrival_distance, kPositive);
+  config.read("plan_timeout", params.plan_timeout, kPositive);
+  config.read("estimate_sigma_max", params.estimate_sigma_max, kPositive);
+  config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
+  return params;
+}
+
+std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command) {
+  using namespace swiftlet_msgs::msg::ModeCommand_Constants;
+  switch (command.command()) {
+    case ARM:
+      return Request::arm();
+    case DISARM:
+      return Request::disarm();
+    case TAKEOFF:
+      return Request::takeoff(command.altitude());
+    case HOVER:
+      return Request::hover();
+    case LAND:
+      return Request::land();
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint8_t to_msg(Mode mode) {
+  using namespace swiftlet_msgs::msg::VehicleStatus_Constants;
+  switch (mode) {
+    case Mode::kGrounded:
+      return GROUNDED;
+    case Mode::kTakeoff:
+      return TAKEOFF;
+    case Mode::kHover:
+      return HOVER;
+    case Mode::kLand:
+      return LAND;
+    case Mode::kIndoorNavigation:
+      return INDOOR_NAVIGATION;
+  }
+  return GROUNDED;
+}
+
+std::uint8_t to_msg(SetpointKind kind) {
+  using namespace swiftlet_msgs::msg::Setpoint_Constants;
+  if (kind == SetpointKind::kTrack) return TRACK;
+  return kind == SetpointKind::kLevel ? LEVEL : MOTORS_OFF;
+}
+
+/// Who decides what is flown: commands in, setpoints out.
+class Commander : public Component {
+ public:
+  explicit Commander(const ComponentContext& context)
+      : Component(context), director_(read_params(parameters())) {
+    setpoint_ = advertise(topic::setpoint);
+    goal_ = advertise(topic::goal);
+    status_ = advertise(topic::vehicle_status);
+    ack_ = advertise(topic::mode_ack);
+    subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
+      const auto& covariance = odometry.pose().covariance();
+      const double variance = std::max({covariance[0], covariance[7], covariance[14]});
+      director_.set_estimate(from_msg(odometry.header().stamp()), from_msg(odometry),
+                             std::sqrt(variance));
+    });
+    subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
+      director_.set_range_down(range.range());
+    });
+    subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
+      director_.set_battery(battery.percentage());
+    });
+    subscribe(topic::motors, [this](const swiftlet_msgs::msg::MotorCommand&) {
+      director_.set_motors_heard(now());
+    });
+    subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& trajectory) {
+      const bool brake = trajectory.status() == swiftlet_msgs::msg::Trajectory_Constants::BRAKE;
+      director_.set_plan({from_msg(trajectory.goal_stamp()), from_msg(trajectory), brake,
+                          trajectory.failure(), trajectory.reason()});
+    });
+    subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
+      answer(command.id(), [&] { return carry_out(command); });
+    });
+    subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
+      answer(mission.id(), [&] { return carry_out(mission); });
+    });
+    every(kTick, [this](Time now) { tick(now); });
+  }
+
+ private:
+  Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
+    const std::optional<Request> request = request_of(command);
+    if (!request) return Error{fmt::format("there is no command {}", command.command())};
+    return director_.request(*request, now());
+  }
+
+  Result<Acceptance> carry_out(const swiftlet_msgs::msg::Mission& mission) {
+    if (mission.checksum() != checksum(mission)) {
+      return Error{"the mission's checksum is wrong: it was damaged on the way; send it again"};
+    }
+    Result<Acceptance> result = director_.fly(mission.checksum(), waypoints_of(mission), now());
+    if (result.ok()) mission_id_ = mission.id();
+    return result;
+  }
+
+  /// Carries a command out once, and acknowledges it each time it comes.
+  template <class CarryOut>
+  void answer(const std::string& id, CarryOut carry_out) {
+    for (const auto& known : answered_) {
+      if (known.id() == id) {
+        ack_.publish(known);
+        return;
+      }
+    }
+    const Result<Acceptance> result = carry_out();
+    swiftlet_msgs::msg::CommandAck ack;
+    ack.header(make_header(now(), frame::kMap));
+    ack.id(id);
+    ack.accepted(result.ok());
+    if (!result.ok()) {
+      ack.reason(result.error().reason);
+      log()->warn("{}", result.error().reason);
+    }
+    answered_.push_back(ack);
+    if (answered_.size() > kRememberedCommands) answered_.pop_front();
+    ack_.publish(ack);
+    publish_status(now());
+  }
+
+  void tick(Time now) {
+    const FlightDirector::Directive directive = director_.tick(now);
+    swiftlet_msgs::msg::Setpoint setpoint;
+    setpoint.header(make_header(directive.setpoint.time, frame::kMap));
+    setpoint.kind(to_msg(directive.setpoint.kind));
+    set_reference(directive.setpoint.reference, setpoint);
+    setpoint_.publish(setpoint);
+    ++ticks_;
+    if (directive.goal && (ticks_ % kGoalEvery == 0 || directive.goal->identity != last_goal_)) {
+      publish_goal(*directive.goal);
+    }
+    if (directive.transition) log()->info("{}", describe(*directive.transition));
+    if (directive.transition || ticks_ % kStatusEvery == 0) publish_status(now);
+  }
+
+  /// Again and again while it holds, so that a planner that hears nothing knows that it is over.
+  void publish_goal(const PlanGoal& goal) {
+    last_goal_ = goal.identity;
+    geometry_msgs::msg::PoseStamped message;
+    message.header(make_header(goal.identity, frame::kMap));
+    message.pose(to_pose(goal.waypoint.position, Eigen::Quaterniond::Identity()));
+    goal_.publish(message);
+  }
+
+  void publish_status(Time now) {
+    const FlightDirector::Status status = director_.status(now);
+    swiftlet_msgs::msg::VehicleStatus message;
+    message.header(make_header(now, frame::kMap));
+    message.mode(to_msg(status.mode));
+    message.armed(status.armed);
+    message.ready(status.ready);
+    message.reason(status.reason);
+    message.height(status.height);
+    message.mission_id(mission_id_);
+    message.waypoint(static_cast<std::uint32_t>(status.waypoint));
+    message.waypoint_count(static_cast<std::uint32_t>(status.waypoint_count));
+    message.mission_done(status.mission_done);
+    status_.publish(message);
+  }
+
+  FlightDirector director_;
+  std::string mission_id_;
+  std::deque<swiftlet_msgs::msg::CommandAck> answered_;
+  std::int64_t ticks_ = 0;
+  Time last_goal_{};
+  Publisher<swiftlet_msgs::msg::Setpoint> setpoint_;
+  Publisher<geometry_msgs::msg::PoseStamped> goal_;
+  Publisher<swiftlet_msgs::msg::VehicleStatus> status_;
+  Publisher<swiftlet_msgs::msg::CommandAck> ack_;
+};
+
+const RegisterComponent<Commander> kRegistered{"commander",
+                                               "decides what is flown, from commands and plans"};
+
+}  // namespace
+}  // namespace swiftlet

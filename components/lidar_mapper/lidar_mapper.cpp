@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <deque>
+
+#include "components/conversions.hpp"
+#include "components/lidar_mapper/grid_message.hpp"
+#include "components/topics.hpp"
+#include "estimation/geometry/pose_history.hpp"
+#include "perception/occupancy_grid.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Scans that wait for their pose; more are a sign that odometry has stopped.
+constexpr std::size_t kMaxWaiting = 20;
+
+struct Params {
+  OccupancyGrid::Params grid;
+  Eigen::Vector3d laser_position{0.0, 0.0, 0.08};  ///< of the scanner in the body [m]
+  double map_rate_hz = 5.0;
+  double max_odometry_gap = 0.5;  ///< longer ones are not interpolated across [s]
+};
+
+Params read_params(const Config& config) {
+  Params params;
+  config.read("resolution", params.grid.resolution, {0.005, 1.0});
+  config.read("hit_probability", params.grid.hit_probability, {0.51, 0.99});
+  config.read("miss_probability", params.grid.miss_probability, {0.01, 0.49});
+  config.read("min_height", params.grid.min_height);
+  config.read("max_height", params.grid.max_height);
+  config.read("max_range", params.grid.max_range, kPositive);
+  config.read("laser_position", params.laser_position);
+  config.read("map_rate_hz", params.map_rate_hz, {0.1, 50.0});
+  config.read("max_odometry_gap", params.max_odometry_gap, kPositive);
+  return params;
+}
+
+LaserScan from_msg(const sensor_msgs::msg::LaserScan& message) {
+  LaserScan scan;
+  scan.angle_min = message.angle_min();
+  scan.angle_increment = message.angle_increment();
+  scan.time_increment = message.time_increment();
+  scan.range_min = message.range_min();
+  scan.range_max = message.range_max();
+  scan.ranges = message.ranges();
+  return scan;
+}
+
+/// An occupancy map from scans at the poses of odometry.
+class LidarMapper : public Component {
+ public:
+  explicit LidarMapper(const ComponentContext& context)
+      : Component(context),
+        params_(read_params(parameters())),
+        grid_(params_.grid),
+        poses_(std::chrono::seconds(5)) {
+    map_ = advertise(topic::map);
+    subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
+      const RigidBodyState state = swiftlet::from_msg(odometry);
+      poses_.add(swiftlet::from_msg(odometry.header().stamp()), {state.p_WB, state.q_WB});
+      odometry_frame_ = odometry.child_frame_id();
+      insert_waiting();
+    });
+    subscribe(topic::scan, [this](const sensor_msgs::msg::LaserScan& scan) {
+      waiting_.push_back(scan);
+      if (waiting_.size() > kMaxWaiting) {
+        log()->warn("a scan was dropped: no odometry at its time");
+        waiting_.pop_front();
+      }
+      insert_waiting();
+    });
+    every(from_seconds(1.0 / params_.map_rate_hz), [this](Time now) {
+      if (!std::exchange(changed_, false)) return;
+      map_.publish(to_msg(grid_, now));
+    });
+  }
+
+ private:
+  /// Scans whose pose is known by now go into the map.
+  void insert_waiting() {
+    while (!waiting_.empty() && !poses_.empty() &&
+           swiftlet::from_msg(waiting_.front().header().stamp()) <= poses_.newest()) {
+      insert(waiting_.front());
+      waiting_.pop_front();
+    }
+  }
+
+  void insert(const sensor_msgs::msg::LaserScan& message) {
+    const auto pose = poses_.at(swiftlet::from_msg(message.header().stamp()),
+                                from_seconds(params_.max_odometry_gap));
+    if (!pose) return;  // taken before the first odometry, or in a gap of it
+    // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
+    const bool is_scanners_own = odometry_frame_ == message.header().frame_id();
+    const Eigen::Vector3d p_BL =
+        is_scanners_own ? Eigen::Vector3d::Zero().eval() : params_.laser_position;
+    const auto inserted =
+        grid_.insert(from_msg(message), pose->position + pose->attitude * p_BL, pose->attitude);
+    if (!inserted.ok()) {
+      log()->warn("scan refused: {}", inserted.error().reason);
+      return;
+    }
+    changed_ = true;
+  }
+
+  Params params_;
+  OccupancyGrid grid_;
+  PoseHistory poses_;
+  std::string odometry_frame_;
+  std::deque<sensor_msgs::msg::LaserScan> waiting_;
+  bool changed_ = false;
+  Publisher<nav_msgs::msg::OccupancyGrid> map_;
+};
+
+const RegisterComponent<LidarMapper> kRegistered{"lidar_mapper",
+                                                 "an occupancy map from scans and odometry"};
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "components/conversions.hpp"
+#include "components/lidar_mapper/grid_message.hpp"
+#include "components/planner/trajectory_message.hpp"
+#include "components/runtime/staleness.hpp"
+#include "components/topics.hpp"
+#include "planner/path/replanner.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kGoalPeriod = 100ms;  // of the commander
+constexpr Duration kTick = 50ms;
+/// A reference that moves slower has come to rest [m/s].
+constexpr double kRestSpeed = 0.01;
+
+namespace answers = swiftlet_msgs::msg::Trajectory_Constants;
+
+/// A failure in a few words, which "to waypoint 2" can follow.
+const char* phrase(PlanFailure failure) {
+  switch (failure) {
+    case PlanFailure::kNone:
+      return "no failure";
+    case PlanFailure::kBadInput:
+      return "no usable map or goal for the way";
+    case PlanFailure::kStartInContact:
+      return "no way out of contact";
+    case PlanFailure::kGoalInObstacle:
+      return "no room at the goal on the way";
+    case PlanFailure::kGoalOutsideMap:
+      return "no map on the way";
+    case PlanFailure::kNoPath:
+      return "no path";
+    case PlanFailure::kNoTrajectory:
+      return "no trajectory within the limits";
+  }
+  return "no plan";
+}
+
+Replanner::Params read_params(const Config& config) {
+  Replanner::Params params;
+  PathCost& cost = params.trajectory.path.cost;
+  config.read("radius", cost.radius, kPositive);
+  config.read("margin", cost.margin, kNotNegative);
+  config.read("preferred_clearance", cost.preferred_clearance, kPositive);
+  config.read("clearance_weight", cost.clearance_weight, kNotNegative);
+  config.read("unknown_weight", cost.unknown_weight, kNotNegative);
+  config.read("unknown_is_free", cost.unknown_is_free);
+  config.read("samples", params.trajectory.path.samples, {10, 100000});
+  config.read("max_speed", params.trajectory.limits.max_speed, kPositive);
+  config.read("max_acceleration", params.trajectory.limits.max_acceleration, kPositive);
+  config.read("improvement", params.improvement, {0.0, 1.0});
+  int seed = static_cast<int>(params.seed);
+  config.read("seed", seed, {0, 2e9});
+  params.seed = static_cast<std::uint32_t>(seed);
+  return params;
+}
+
+/// A trajectory to the goal through the map, planned anew at 5 Hz and when the map blocks it.
+class Planner : public Component {
+ public:
+  explicit Planner(const ComponentContext& context)
+      : Component(context), replanner_(read_params(parameters())), goal_watch_(kGoalPeriod) {
+    trajectory_ = advertise(topic::trajectory);
+    path_ = advertise(topic::path);
+    subscribe(topic::odometry,
+              [this](const nav_msgs::msg::Odometry& odometry) { vehicle_ = from_msg(odometry); });
+    subscribe(topic::setpoint, [this](const swiftlet_msgs::msg::Setpoint& setpoint) {
+      reference_ = reference_of(setpoint);
+    });
+    subscribe(topic::goal, [this](const geometry_msgs::msg::PoseStamped& goal) { on_goal(goal); });
+    subscribe(topic::map, [this](const nav_msgs::msg::OccupancyGrid& map) {
+      grid_ = from_msg(map, OccupancyGrid::Params());
+      plan();
+    });
+    every(kTick, [this](Time) { plan(); });
+  }
+
+ private:
+  void on_goal(const geometry_msgs::msg::PoseStamped& message) {
+    goal_watch_.heard(now());
+    const Time identity = from_msg(message.header().stamp());
+    if (goal_identity_ == identity) return;
+    goal_identity_ = identity;
+    goal_.position = from_msg(message.pose().position());
+    finished_ = false;
+    braking_ = false;
+    replanner_.reset();
+    // What is flown now, if nothing else: rest at the reference.
+    if (current_.empty() || now() >= current_.end()) current_ = rest_at(reference_);
+    plan();
+  }
+
+  void plan() {
+    if (goal_watch_.stale(now())) {
+      goal_identity_.reset();
+      current_ = {};
+      return;
+    }
+    if (!goal_identity_ || finished_ || grid_.empty()) return;
+    if (braking_) {
+      if (reference_.velocity.norm() > kRestSpeed) return;
+      braking_ = false;
+      current_ = rest_at(reference_);
+    }
+    Replanner::Input input;
+    input.now = now();
+    input.current = &current_;
+    input.grid = &grid_;
+    input.vehicle = vehicle_;
+    input.goal = goal_;
+    const ReplanDecision decision = replanner_.step(input);
+    switch (decision.action) {
+      case ReplanAction::kKeep:
+        break;
+      case ReplanAction::kFollow:
+        current_ = decision.trajectory;
+        trajectory_.publish(to_msg(current_, *goal_identity_));
+        publish_path(decision.path);
+        break;
+      case ReplanAction::kBrake:
+        answer(answers::BRAKE, decision);
+        braking_ = true;
+        break;
+      case ReplanAction::kFail:
+        answer(answers::FAILED, decision);
+        finished_ = true;
+        break;
+    }
+  }
+
+  void answer(std::uint8_t status, const ReplanDecision& decision) {
+    log()->warn("{}: {}", phrase(decision.failure), decision.reason);
+    trajectory_.publish(no_trajectory_msg(now(), *goal_identity_, status, phrase(decision.failure),
+                                          decision.reason));
+    current_ = {};
+  }
+
+  /// One second of standing still, over already: replanning continues from its end.
+  Trajectory rest_at(const FlatReference& reference) const {
+    TrajectorySegment segment;
+    segment.duration_s = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      segment.coefficients[static_cast<std::size_t>(axis)][0] = reference.position[axis];
+    }
+    segment.coefficients[kYaw][0] = reference.yaw;
+    return Trajectory(now() - 1s, {segment});
+  }
+
+  void publish_path(const Path& path) {
+    nav_msgs::msg::Path message;
+    message.header(make_header(now(), frame::kMap));
+    for (const Eigen::Vector2d& point : path.points) {
+      geometry_msgs::msg::PoseStamped pose;
+      pose.header(message.header());
+      pose.pose(
+          to_pose({point.x(), point.y(), goal_.position.z()}, Eigen::Quaterniond::Identity()));
+      message.poses().push_back(pose);
+    }
+    path_.publish(message);
+  }
+
+  Replanner replanner_;
+  StalenessWatch goal_watch_;
+  std::optional<Time> goal_identity_;
+  FlightGoal goal_;
+  bool finished_ = false;
+  bool braking_ = false;
+  Trajectory current_;
+  OccupancyGrid grid_;
+  RigidBodyState vehicle_;
+  FlatReference reference_;
+  Publisher<swiftlet_msgs::msg::Trajectory> trajectory_;
+  Publisher<nav_msgs::msg::Path> path_;
+};
+
+const RegisterComponent<Planner> kRegistered{"planner", "a trajectory to the goal through the map"};
+
+}  // namespace
+}  // namespace swiftlet

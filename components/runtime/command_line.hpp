@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/runtime/host.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace swiftlet {
+
+/// `--params F.yaml` and `--param component.key=value`, for every verb that hosts components. The
+/// file has one section a component:
+///
+///     planner:
+///       max_speed: 1.5
+class ParameterOptions {
+ public:
+  void add_to(CLI::App& verb);
+
+  /// All sections. Throws ConfigError where the file cannot be used or names a component that this
+  /// program does not have.
+  Config load() const;
+  /// Refuses keys that none of the hosted components asked for. What the file has for components
+  /// that are hosted elsewhere is theirs.
+  static void finish(const Config& parameters, const std::vector<std::string>& hosted);
+
+ private:
+  std::string file_;
+  std::vector<std::string> values_;
+};
+
+/// `--domain`, `--vehicle` and `--network`, for every verb that talks to others.
+class NetworkOptions {
+ public:
+  void add_to(CLI::App& verb);
+  /// `name` is that of the process as others see it.
+  HostOptions host_options(const std::string& name) const;
+
+ private:
+  int domain_ = -1;
+  std::string vehicle_;
+  std::vector<std::string> interfaces_;
+};
+
+}  // namespace swiftlet

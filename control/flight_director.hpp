@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/flight_loop.hpp"
+#include "control/flight_reference.hpp"
+#include "control/mode_machine.hpp"
+#include "planner/trajectory/piecewise_polynomial.hpp"
+
+namespace swiftlet {
+
+/// A place to fly to.
+struct MissionWaypoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  std::optional<double> yaw;                           ///< [rad]; without, the heading is kept
+};
+
+/// What the planner answered to the goal with that identity.
+struct PlanAnswer {
+  Time goal{};            ///< PlanGoal::identity
+  Trajectory trajectory;  ///< empty where there is none
+  bool brake = false;     ///< none yet: stop, and wait for the next answer
+  std::string failure;    ///< in two or three words: "no path"
+  std::string reason;     ///< in a sentence
+};
+
+/// Where the planner shall lead.
+struct PlanGoal {
+  Time identity{};  ///< when it was set; a new goal has a new one
+  MissionWaypoint waypoint;
+};
+
+/// Turns requests, missions and plans into one setpoint a tick: the mode machine decides what is
+/// flown, this class how. Pure: time and everything else is passed in.
+///
+/// Take-off and landing are vertical moves with bounded jerk, Hover brakes and holds, Indoor
+/// Navigation follows the planner's trajectories, which must begin on the reference that is flown.
+/// A mission goes from waypoint to waypoint and rests at each; when there is no plan, the mission
+/// ends in Hover, and the reason names the waypoint.
+class FlightDirector {
+ public:
+  struct Params {
+    ModeMachine::Params modes;
+    ReferenceLimits takeoff{0.8, 1.0, 5.0, 2.0, 10.0};
+    ReferenceLimits landing{0.4, 0.8, 5.0, 2.0, 10.0};
+    ReferenceLimits braking{1.0, 2.0, 15.0, 2.0, 10.0};
+    double landing_depth = 0.4;        ///< a landing aims so far below the take-off point [m]
+    double ground_range = 0.18;        ///< the downward sonar reads less on the ground [m]
+    double ground_height = 0.25;       ///< and the estimate says less above the take-off point [m]
+    double arrival_distance = 0.15;    ///< nearer to the waypoint counts as there [m]
+    double arrival_speed = 0.20;       ///< [m/s]
+    double arrival_timeout = 3.0;      ///< after the trajectory's end, then it counts as missed [s]
+    double plan_timeout = 2.0;         ///< an unanswered goal fails after [s]
+    double estimate_timeout = 0.10;    ///< [s]
+    double estimate_sigma_max = 0.30;  ///< of the position, any axis [m]
+    double min_battery_percentage = 0.15;  ///< to take off [0..1]
+  };
+
+  struct Status {
+    Mode mode = Mode::kGrounded;
+    bool armed = false;
+    bool ready = false;
+    std::string reason;  ///< of the last change, or why not ready
+    double height = 0.0;
+    std::size_t waypoint = 0;  ///< flown to, from 1; 0 without a mission
+    std::size_t waypoint_count = 0;
+    bool mission_done = false;
+  };
+
+  struct Directive {
+    FlightSetpoint setpoint;
+    std::optional<PlanGoal> goal;          ///< while Indoor Navigation flies
+    std::optional<Transition> transition;  ///< what happened in this tick
+  };
+
+  /// Throws std::invalid_argument where a parameter cannot be used.
+  explicit FlightDirector(const Params& params);
+
+  void set_estimate(Time time, const RigidBodyState& state, double position_sigma);
+  void set_range_down(double range) { range_down_ = range; }
+  void set_battery(double percentage) { battery_percentage_ = percentage; }
+  /// That the flight controller is alive, heard at `time`.
+  void set_motors_heard(Time time) { motors_heard_ = time; }
+
+  /// Carries out a request, or says why not. `now` is that of the coming tick.
+  Result<Acceptance> request(const Request& request, Time now);
+  /// Checks the mission and begins to fly it. `id` is the same for the same waypoints.
+  Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
+  void set_plan(const PlanAnswer& answer);
+
+  Directive tick(Time now);
+  Status status(Time now) const;
+
+ private:
+  Situation situation(Time now) const;
+  std::string not_ready_reason(Time now) const;
+  std::string estimate_problem(Time now) const;
+  void enter(Mode mode, Time now);
+  void follow_mission(Time now);
+  void next_waypoint(Time now);
+  FlatReference reference(Time now) const;
+  void rest_or_brake(Time now);
+
+  Params params_;
+  ModeMachine machine_;
+
+  RigidBodyState state_;
+  std::optional<Time> estimate_time_;
+  double position_sigma_ = 0.0;
+  std::optional<double> range_down_;
+  std::optional<double> battery_percentage_;
+  std::optional<Time> motors_heard_;
+
+  Eigen::Vector3d takeoff_point_ = Eigen::Vector3d::Zero();
+  FlightReference simple_;            // flown where there is no trajectory
+  std::optional<Trajectory> active_;  // flown in Indoor Navigation
+  std::deque<Trajectory> coming_;     // begin later
+  bool descending_ = false;
+
+  std::vector<MissionWaypoint> waypoints_;
+  std::size_t waypoint_ = 0;  // index of the one flown to
+  std::optional<PlanGoal> goal_;
+  std::optional<Time> waiting_since_;  // for the planner's answer
+  bool brake_asked_ = false;
+  bool mission_done_ = false;
+  Situation::Navigation navigation_ = Situation::Navigation::kInactive;
+  std::string navigation_problem_;
+  std::string last_reason_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/gcs_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+
+#include "components/runtime/command_line.hpp"
+#include "gcs/command_client.hpp"
+#include "gcs/status_view.hpp"
+
+namespace swiftlet {
+namespace {
+
+namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
+
+constexpr double kDefaultAltitude = 1.2;  // indoors: 4 ft in seed 004 [m]
+
+using Network = std::shared_ptr<NetworkOptions>;
+
+void send(const NetworkOptions& network, const GroundCommand& ground_command) {
+  Host host(network.host_options("gcs"));
+  auto& client = host.emplace<CommandClient>("gcs", ground_command);
+  host.run();
+  const CommandOutcome& outcome = client.outcome();
+  if (outcome.accepted) {
+    fmt::print("{}\n", outcome.text);
+    return;
+  }
+  fmt::print(stderr, "{}\n", outcome.text.empty() ? "interrupted" : outcome.text);
+  throw CLI::RuntimeError(1);
+}
+
+void show_status(const NetworkOptions& network, bool json) {
+  Host host(network.host_options("gcs"));
+  auto& client = host.emplace<StatusClient>("gcs", false);
+  host.run();
+  if (!client.view().status) {
+    fmt::print(stderr,
+               "no vehicle answers in domain {}; is a commander running there, and is "
+               "--vehicle right?\n",
+               host.domain());
+    throw CLI::RuntimeError(1);
+  }
+  fmt::print("{}\n", json ? to_json(client.view()) : describe(client.view()));
+}
+
+void add_simple(CLI::App& gcs, const Network& network, const char* name, const char* what,
+                std::uint8_t code) {
+  CLI::App* verb = gcs.add_subcommand(name, what);
+  network->add_to(*verb);
+  verb->callback([network, name, code] {
+    GroundCommand ground_command;
+    ground_command.name = name;
+    ground_command.command = code;
+    send(*network, ground_command);
+  });
+}
+
+}  // namespace
+
+void add_gcs_commands(CLI::App& gcs) {
+  gcs.require_subcommand(1);
+  const auto network = std::make_shared<NetworkOptions>();
+  add_simple(gcs, network, "arm", "Let the rotors turn", command::ARM);
+  add_simple(gcs, network, "disarm", "Stop the rotors, on the ground", command::DISARM);
+  add_simple(gcs, network, "land", "Descend here until the ground is felt", command::LAND);
+  add_simple(gcs, network, "hover", "Stop, and hold this place", command::HOVER);
+
+  auto altitude = std::make_shared<double>(kDefaultAltitude);
+  CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
+  takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")->capture_default_str();
+  network->add_to(*takeoff);
+  takeoff->callback([network, altitude] {
+    GroundCommand ground_command;
+    ground_command.name = "takeoff";
+    ground_command.command = command::TAKEOFF;
+    ground_command.altitude = *altitude;
+    send(*network, ground_command);
+  });
+
+  auto place = std::make_shared<GroundCommand::Place>();
+  CLI::App* go_to = gcs.add_subcommand("goto", "Fly to a place in the map, around obstacles");
+  go_to->add_option("x", place->x, "[m]")->required();
+  go_to->add_option("y", place->y, "[m]")->required();
+  go_to->add_option("z", place->z, "[m]; else at the height that it has");
+  network->add_to(*go_to);
+  go_to->callback([network, place] {
+    GroundCommand ground_command;
+    ground_command.name = "goto";
+    ground_command.go_to = *place;
+    send(*network, ground_command);
+  });
+
+  auto json = std::make_shared<bool>(false);
+  CLI::App* status = gcs.add_subcommand("status", "What the vehicle is doing");
+  status->add_flag("--json", *json, "For scripts");
+  network->add_to(*status);
+  status->callback([network, json] { show_status(*network, *json); });
+
+  CLI::App* watch = gcs.add_subcommand("watch", "A line a second, until Ctrl-C");
+  network->add_to(*watch);
+  watch->callback([network] {
+    Host host(network->host_options("gcs"));
+    host.emplace<StatusClient>("gcs", true);
+    host.run();
+  });
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/status_view.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "components/conversions.hpp"
+#include "components/mode_names.hpp"
+#include "estimation/geometry/so3.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kTimeout = 1800ms;
+/// What is not heard for so long is not true any more.
+constexpr Duration kStale = 1s;
+
+std::string mission_text(const swiftlet_msgs::msg::VehicleStatus& status) {
+  if (status.waypoint_count() == 0) return "none";
+  if (status.mission_done()) return fmt::format("{} waypoints, done", status.waypoint_count());
+  return fmt::format("waypoint {} of {}", status.waypoint(), status.waypoint_count());
+}
+
+double degrees(double radians) {
+  return radians * 180.0 / 3.14159265358979323846;
+}
+
+}  // namespace
+
+std::string describe(const VehicleView& view) {
+  std::string text;
+  if (view.status) {
+    const auto& status = *view.status;
+    text += fmt::format("mode      {}{}\n", mode_name(status.mode()),
+                        status.armed() ? ", armed" : ", disarmed");
+    text += fmt::format("ready     {}\n", status.ready() ? "yes" : "no");
+    if (!status.reason().empty()) text += fmt::format("reason    {}\n", status.reason());
+    text += fmt::format("height    {:.2f} m above take-off\n", status.height());
+    text += fmt::format("mission   {}\n", mission_text(status));
+  }
+  if (view.odometry) {
+    const RigidBodyState state = from_msg(*view.odometry);
+    text += fmt::format("position  {:.2f} {:.2f} {:.2f} m, heading {:.0f} deg\n", state.p_WB.x(),
+                        state.p_WB.y(), state.p_WB.z(), degrees(yaw_of(state.q_WB)));
+    text += fmt::format("speed     {:.2f} m/s\n", state.v_WB_W.norm());
+  } else {
+    text += "position  not known: no odometry\n";
+  }
+  if (view.battery) {
+    text +=
+        fmt::format("battery   {:.0f} %, {:.1f} V, {:.1f} A\n", view.battery->percentage() * 100.0f,
+                    view.battery->voltage(), -view.battery->current());
+  }
+  return text;
+}
+
+std::string one_line(const VehicleView& view) {
+  std::string text;
+  if (view.status) {
+    text += fmt::format("{:18}", mode_name(view.status->mode()));
+    if (view.status->waypoint_count() > 0) text += mission_text(*view.status) + "  ";
+  } else {
+    text += "no vehicle/status  ";
+  }
+  if (view.odometry) {
+    const RigidBodyState state = from_msg(*view.odometry);
+    text += fmt::format("{:7.2f} {:7.2f} {:6.2f} m {:5.2f} m/s", state.p_WB.x(), state.p_WB.y(),
+                        state.p_WB.z(), state.v_WB_W.norm());
+  }
+  if (view.battery) text += fmt::format("  {:3.0f} %", view.battery->percentage() * 100.0f);
+  return text;
+}
+
+std::string to_json(const VehicleView& view) {
+  nlohmann::json json;
+  if (view.status) {
+    const auto& status = *view.status;
+    json["mode"] = mode_name(status.mode());
+    json["armed"] = status.armed();
+    json["ready"] = status.ready();
+    json["reason"] = status.reason();
+    json["height_m"] = status.height();
+    json["mission"] = {{"id", status.mission_id()},
+                       {"waypoint", status.waypoint()},
+                       {"waypoint_count", status.waypoint_count()},
+                       {"done", status.mission_done()}};
+  }
+  if (view.odometry) {
+    const RigidBodyState state = from_msg(*view.odometry);
+    json["position_m"] = {state.p_WB.x(), state.p_WB.y(), state.p_WB.z()};
+    json["yaw_rad"] = yaw_of(state.q_WB);
+    json["speed_m_s"] = state.v_WB_W.norm();
+  }
+  if (view.battery) {
+    json["battery"] = {{"percentage", view.battery->percentage()},
+                       {"voltage_v", view.battery->voltage()}};
+  }
+  return json.dump(2);
+}
+
+StatusClient::StatusClient(const ComponentContext& context, bool watch)
+    : Component(context), watch_(watch), begin_(now()), status_heard_(begin_) {
+  subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
+    status_heard_ = now();
+    view_.status = status;
+  });
+  subscribe(topic::odometry,
+            [this](const nav_msgs::msg::Odometry& odometry) { view_.odometry = odometry; });
+  subscribe(topic::battery,
+            [this](const sensor_msgs::msg::BatteryState& battery) { view_.battery = battery; });
+  every(watch ? Duration(1s) : Duration(20ms), [this](Time now) { advance(now); });
+}
+
+void StatusClient::advance(Time now) {
+  if (watch_) {
+    if (now - status_heard_ > kStale) view_ = {};
+    fmt::print("{}\n", one_line(view_));
+    std::fflush(stdout);
+  } else if ((view_.status && view_.odometry && view_.battery) || now - begin_ > kTimeout) {
+    stop(view_.status ? 0 : 1);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/path/clearance_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swiftlet {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+}
+
+Result<ClearanceMap> ClearanceMap::make(const OccupancyGrid& grid, const PathCost& cost,
+                                        const std::vector<Eigen::Vector2d>& reach, double border) {
+  if (grid.empty()) return Error{"there is no map to plan in yet"};
+  if (!(cost.radius >= 0.0 && cost.margin >= 0.0 && std::isfinite(cost.hard_clearance()) &&
+        cost.clearance_weight >= 0.0 && std::isfinite(cost.clearance_weight) &&
+        cost.unknown_weight >= 0.0 && std::isfinite(cost.unknown_weight) &&
+        std::isfinite(cost.preferred_clearance) && border >= 0.0)) {
+    return Error{"the vehicle's size, clearances or weights are negative or not finite"};
+  }
+  OccupancyGrid padded = grid;
+  const double edge_m = grid.resolution();
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(border);
+  const Eigen::Vector2d upper =
+      grid.origin() + edge_m * Eigen::Vector2d(grid.width() - 0.5, grid.height() - 0.5);
+  Status status = padded.cover(grid.origin() + Eigen::Vector2d::Constant(0.5 * edge_m) - margin,
+                               upper + margin);
+  for (const Eigen::Vector2d& point : reach) {
+    if (status.ok()) status = padded.cover(point - margin, point + margin);
+  }
+  if (!status) return status.error();
+
+  ClearanceMap map;
+  map.cost_ = cost;
+  DistanceField::Params params;
+  params.unknown_is_obstacle = !cost.unknown_is_free;
+  map.field_ = DistanceField(padded, params);
+  const std::size_t cells = map.field_.values().size();
+  map.unknown_.resize(cells);
+  map.density_.resize(cells);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const Cell cell{x, y};
+      const bool unknown = padded.state(cell) == CellState::kUnknown;
+      map.unknown_[map.index(cell)] = unknown;
+      map.density_[map.index(cell)] = static_cast<float>(map.penalty(map.clearance(cell)) +
+                                                         (unknown ? cost.unknown_weight : 0.0));
+    }
+  }
+  return map;
+}
+
+double ClearanceMap::penalty(double clearance) const {
+  const double hard = cost_.hard_clearance();
+  if (!(clearance >= hard)) return kInfinity;
+  if (clearance >= cost_.preferred_clearance) return 1.0;
+  const double lack = (cost_.preferred_clearance - clearance) / (cost_.preferred_clearance - hard);
+  return 1.0 + cost_.clearance_weight * lack * lack;
+}
+
+Cell ClearanceMap::cell_of(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d cells = (point - origin()) / resolution();
+  // Also false for NaN.
+  if (!(cells.x() >= 0 && cells.y() >= 0 && cells.x() < width() && cells.y() < height())) {
+    return {-1, -1};
+  }
+  return {static_cast<int>(cells.x()), static_cast<int>(cells.y())};
+}
+
+Eigen::Vector2d ClearanceMap::center_of(Cell cell) const {
+  return origin() + resolution() * Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
+}
+
+double ClearanceMap::clearance_at(const Eigen::Vector2d& point) const {
+  if (empty() || !contains(point)) return -1.0;
+  return field_.distance_at(point) - 0.5 * resolution();
+}
+
+bool ClearanceMap::unknown_at(const Eigen::Vector2d& point) const {
+  const Cell cell = cell_of(point);
+  return !contains(cell) || unknown_[index(cell)] != 0;
+}
+
+double ClearanceMap::density_at(const Eigen::Vector2d& point) const {
+  const double base = penalty(clearance_at(point));
+  return base + (base < kInfinity && unknown_at(point) ? cost_.unknown_weight : 0.0);
+}
+
+double ClearanceMap::segment_cost(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+  if (!contains(a) || !contains(b)) return kInfinity;
+  const double length = (b - a).norm();
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / (0.5 * resolution()))));
+  // The same as density_at, without its questions: between two points inside, all are inside.
+  const double per_cell = 1.0 / resolution();
+  const Eigen::Vector2d first = (a - origin()) * per_cell, step = (b - a) * (per_cell / steps);
+  const double hard = cost_.hard_clearance() + 0.5 * resolution();
+  const double preferred = cost_.preferred_clearance + 0.5 * resolution();
+  const double slope = preferred > hard ? 1.0 / (preferred - hard) : 0.0;
+  const double x_max = std::max(0, width() - 2), y_max = std::max(0, height() - 2);
+  const float* distance = field_.values().data();
+  const std::ptrdiff_t up = height() > 1 ? width() : 0, right = width() > 1 ? 1 : 0;
+  double sum = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = first.x() + i * step.x(), y = first.y() + i * step.y();
+    const double x0 = std::clamp(std::floor(x - 0.5), 0.0, x_max);
+    const double y0 = std::clamp(std::floor(y - 0.5), 0.0, y_max);
+    const double u = std::clamp(x - 0.5 - x0, 0.0, 1.0), v = std::clamp(y - 0.5 - y0, 0.0, 1.0);
+    const float* d =
+        distance + static_cast<std::ptrdiff_t>(y0) * width() + static_cast<std::ptrdiff_t>(x0);
+    const double low = d[0] + u * static_cast<double>(d[right] - d[0]);
+    const double high = d[up] + u * static_cast<double>(d[up + right] - d[up]);
+    const double here = low + v * (high - low);
+    if (!(here >= hard)) return kInfinity;
+    const double lack = here < preferred ? (preferred - here) * slope : 0.0;
+    const bool unknown = unknown_[index({std::min(static_cast<int>(x), width() - 1),
+                                         std::min(static_cast<int>(y), height() - 1)})] != 0;
+    const double density =
+        1.0 + cost_.clearance_weight * lack * lack + (unknown ? cost_.unknown_weight : 0.0);
+    sum += (i == 0 || i == steps) ? 0.5 * density : density;  // trapezoidal rule
+  }
+  return sum * length / steps;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/path/clearance_map.hpp"
+
+namespace swiftlet {
+
+/// What a vehicle at one cell can reach.
+struct FloodFill {
+  std::vector<Cell> reached;  ///< in the order of their cost
+  std::vector<Cell> to_goal;  ///< from start to goal, empty where the goal is not reached
+  std::vector<Cell> narrow;   ///< of the reached, those on the ridge between near obstacles
+};
+
+/// Fills the free cells of the map from `start` in the order of their cost (Dial's bucket queue)
+/// until the goal and what costs up to a tenth more is reached. Between free cells that touch in a
+/// corner only, the way is open where their two common neighbours are free too: then every point of
+/// the lines between their centres has the hard clearance.
+FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal);
+
+}  // namespace swiftlet

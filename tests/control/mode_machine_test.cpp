@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "control/mode_machine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+namespace swiftlet {
+namespace {
+
+using ::testing::HasSubstr;
+using Kind = Request::Kind;
+using Navigation = Situation::Navigation;
+
+constexpr std::uint64_t kMission = 42;
+
+Situation flying() {
+  Situation s;
+  s.now = Time(std::chrono::seconds(10));
+  s.ready = true;
+  s.estimate_ok = true;
+  s.on_ground = false;
+  s.height = 1.2;
+  s.navigation = Navigation::kActive;
+  return s;
+}
+
+Situation grounded() {
+  Situation s = flying();
+  s.on_ground = true;
+  s.height = 0.0;
+  s.navigation = Navigation::kInactive;
+  return s;
+}
+
+Request ordinary(Kind kind) {
+  switch (kind) {
+    case Kind::kTakeoff:
+      return Request::takeoff(1.2);
+    case Kind::kNavigate:
+      return Request::navigate(kMission);
+    default:
+      return Request{kind, 0.0, 0, {}};
+  }
+}
+
+/// A machine that was brought to a mode through requests and events alone.
+ModeMachine in(Mode mode, bool armed = true) {
+  ModeMachine machine;
+  if (mode == Mode::kGrounded && !armed) return machine;
+  EXPECT_TRUE(machine.request(Request::arm(), grounded()).ok());
+  if (mode == Mode::kGrounded) return machine;
+  EXPECT_TRUE(machine.request(Request::takeoff(1.2), grounded()).ok());
+  if (mode == Mode::kTakeoff) return machine;
+  Situation top = flying();
+  top.reference_finished = true;
+  EXPECT_TRUE(machine.update(top).has_value());
+  if (mode == Mode::kLand) {
+    EXPECT_TRUE(machine.request(Request::land(), flying()).ok());
+  }
+  if (mode == Mode::kIndoorNavigation) {
+    EXPECT_TRUE(machine.request(Request::navigate(kMission), flying()).ok());
+  }
+  EXPECT_EQ(machine.mode(), mode);
+  return machine;
+}
+
+struct Row {
+  Mode mode;
+  bool armed;
+  // The mode afterwards, in the order arm, disarm, takeoff, hover, land, navigate;
+  // "=" accepted and nothing changes, "-" refused.
+  std::vector<std::string> answers;
+};
+
+const std::vector<Row> kExpected{
+    {Mode::kGrounded, false, {"Grounded", "=", "-", "-", "=", "-"}},
+    {Mode::kGrounded, true, {"=", "Grounded", "Takeoff", "-", "=", "-"}},
+    {Mode::kTakeoff, true, {"=", "-", "=", "Hover", "Land", "-"}},
+    {Mode::kHover, true, {"=", "-", "=", "=", "Land", "Indoor Navigation"}},
+    {Mode::kLand, true, {"=", "-", "-", "Hover", "=", "-"}},
+    {Mode::kIndoorNavigation, true, {"=", "-", "=", "Hover", "Land", "="}},
+};
+
+TEST(ModeMachineRequests, EveryPairOfModeAndRequestAnswersAsTheTable) {
+  for (const Row& row : kExpected) {
+    for (std::size_t i = 0; i < kRequestKinds.size(); ++i) {
+      const std::string pair = std::string(to_string(row.mode)) + (row.armed ? "" : " disarmed") +
+                               " / " + to_string(kRequestKinds[i]);
+      ModeMachine machine = in(row.mode, row.armed);
+      const bool was_armed = machine.armed();
+      const Situation situation = row.mode == Mode::kGrounded ? grounded() : flying();
+      const auto result = machine.request(ordinary(kRequestKinds[i]), situation);
+      const std::string& expected = row.answers[i];
+      if (expected == "-") {
+        ASSERT_FALSE(result.ok()) << pair;
+        EXPECT_THAT(result.error().reason,
+                    HasSubstr(std::string(to_string(kRequestKinds[i])) + " refused: "));
+        EXPECT_GT(result.error().reason.size(), 25u)
+            << "a reason that helps: " << result.error().reason;
+      } else {
+        ASSERT_TRUE(result.ok()) << pair;
+        EXPECT_EQ(*result, expected == "=" ? Acceptance::kUnchanged : Acceptance::kChanged) << pair;
+      }
+      const bool stays = expected == "-" || expected == "=";
+      EXPECT_STREQ(to_string(machine.mode()), stays ? to_string(row.mode) : expected.c_str())
+          << pair;
+      bool armed = was_armed;
+      if (!stays && kRequestKinds[i] == Kind::kArm) armed = true;
+      if (!stays && kRequestKinds[i] == Kind::kDisarm) armed = false;
+      EXPECT_EQ(machine.armed(), armed) << pair;
+    }
+  }
+}
+
+TEST(ModeMachineRequests, AskedTwiceTheyChangeNothingTheSecondTime) {
+  for (const Row& row : kExpected) {
+    for (const Kind kind : kRequestKinds) {
+      ModeMachine machine = in(row.mode, row.armed);
+      const Situation situation = row.mode == Mode::kGrounded ? grounded() : flying();
+      const auto first = machine.request(ordinary(kind), situation);
+      const Mode mode = machine.mode();
+      const auto second = machine.request(ordinary(kind), situation);
+      EXPECT_EQ(machine.mode(), mode);
+      ASSERT_EQ(second.ok(), first.ok()) << to_string(row.mode) << " / " << to_string(kind);
+      if (first.ok()) {
+        EXPECT_EQ(*second, Acceptance::kUnchanged);
+      }
+    }
+  }
+}
+
+TEST(ModeMachineRequests, ATakeoffToAnotherAltitudeIsAnotherRequest) {
+  for (const Mode mode : {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation}) {
+    ModeMachine machine = in(mode);
+    const auto result = machine.request(Request::takeoff(2.0), flying());
+    ASSERT_FALSE(result.ok());
+    EXPECT_THAT(result.error().reason, HasSubstr("already, to 1.20 m"));
+    EXPECT_EQ(machine.takeoff_altitude(), 1.2);
+  }
+}
+
+TEST(ModeMachineRequests, AnotherMissionReplacesTheOneThatIsFlown) {
+  ModeMachine machine = in(Mode::kIndoorNavigation);
+  const auto result = machine.request(Request::navigate(kMission + 1), flying());
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(*result, Acceptance::kChanged);
+  EXPECT_EQ(machine.mission(), kMission + 1);
+}
+
+TEST(ModeMachineRequests, RefusalsNameTheCulprit) {
+  const auto reason = [](ModeMachine machine, const Request& request, const Situation& situation) {
+    const Mode before = machine.mode();
+    const auto result = machine.request(request, situation);
+    EXPECT_FALSE(result.ok());
+    EXPECT_EQ(machine.mode(), before);
+    return result.ok() ? std::string() : result.error().reason;
+  };
+  EXPECT_EQ(reason(in(Mode::kGrounded, false), Request::takeoff(1.0), grounded()),
+            "takeoff refused: not armed; send arm first");
+  Situation s = grounded();
+  s.ready = false;
+  s.not_ready_reason = "imu0 is silent";
+  EXPECT_EQ(reason(in(Mode::kGrounded, false), Request::arm(), s),
+            "arm refused: not ready: imu0 is silent");
+  EXPECT_EQ(reason(in(Mode::kGrounded), Request::takeoff(1.0), s),
+            "takeoff refused: not ready: imu0 is silent");
+  EXPECT_EQ(reason(in(Mode::kGrounded, false), Request::arm(), flying()),
+            "arm refused: not on the ground");
+  for (const double altitude : {0.1, 50.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THAT(reason(in(Mode::kGrounded), Request::takeoff(altitude), grounded()),
+                HasSubstr("is not from 0.30 to 10.00 m"));
+  }
+  s = grounded();
+  s.estimate_ok = false;
+  s.estimate_problem = "no pose for 0.6 s";
+  EXPECT_EQ(reason(in(Mode::kGrounded), Request::takeoff(1.0), s),
+            "takeoff refused: no estimate: no pose for 0.6 s");
+  s.on_ground = false;
+  EXPECT_EQ(reason(in(Mode::kLand), Request::hover(), s),
+            "hover refused: no estimate: no pose for 0.6 s");
+  EXPECT_EQ(
+      reason(in(Mode::kHover), Request::navigate(1, "waypoint 3 is inside of a wall"), flying()),
+      "navigate refused: waypoint 3 is inside of a wall");
+  EXPECT_EQ(reason(in(Mode::kLand), Request::hover(), grounded()),
+            "hover refused: on the ground already");
+}
+
+TEST(ModeMachineEvents, ACompleteFlightReturnsToGroundedAndDisarmed) {
+  ModeMachine machine = in(Mode::kIndoorNavigation);
+  Situation s = flying();
+  EXPECT_FALSE(machine.update(s).has_value());
+  s.navigation = Navigation::kFinished;
+  EXPECT_EQ(describe(machine.update(s).value()), "Indoor Navigation -> Hover: mission finished");
+  ASSERT_TRUE(machine.request(Request::land(), s).ok());
+  s.on_ground = true;
+  EXPECT_FALSE(machine.update(s).has_value());
+  s.now += std::chrono::milliseconds(400);
+  EXPECT_FALSE(machine.update(s).has_value());
+  s.now += std::chrono::milliseconds(101);
+  EXPECT_EQ(describe(machine.update(s).value()), "Land -> Grounded: landed");
+  EXPECT_FALSE(machine.armed());
+  EXPECT_FALSE(machine.update(s).has_value());
+}
+
+TEST(ModeMachineEvents, AHopDoesNotCountAsLanded) {
+  ModeMachine machine = in(Mode::kLand);
+  Situation s = flying();
+  for (int k = 0; k < 50; ++k) {
+    s.now += std::chrono::milliseconds(100);
+    s.on_ground = k % 4 != 0;  // never on the ground for half a second
+    EXPECT_FALSE(machine.update(s).has_value());
+  }
+  // Time that runs backwards starts the count again.
+  s.on_ground = true;
+  s.now -= std::chrono::seconds(5);
+  EXPECT_FALSE(machine.update(s).has_value());
+  s.now += std::chrono::milliseconds(499);
+  EXPECT_FALSE(machine.update(s).has_value());
+}
+
+TEST(ModeMachineEvents, ALostEstimateLandsFromEveryModeInTheAir) {
+  for (const Mode mode : {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation}) {
+    ModeMachine machine = in(mode);
+    Situation s = flying();
+    s.estimate_ok = false;
+    s.estimate_problem = "no pose for 0.6 s";
+    // It comes before all else that happens in the same tick.
+    s.reference_finished = true;
+    s.navigation = Navigation::kFinished;
+    const auto transition = machine.update(s);
+    ASSERT_TRUE(transition.has_value());
+    EXPECT_EQ(describe(*transition),
+              std::string(to_string(mode)) + " -> Land: estimate lost: no pose for 0.6 s");
+    EXPECT_TRUE(machine.level_descent());
+    EXPECT_TRUE(machine.armed());
+    s.estimate_ok = true;
+    EXPECT_FALSE(machine.update(s).has_value());
+    EXPECT_FALSE(machine.level_descent());
+    EXPECT_EQ(machine.mode(), Mode::kLand);
+  }
+  for (const bool armed : {false, true}) {
+    ModeMachine machine = in(Mode::kGrounded, armed);
+    Situation s = grounded();
+    s.estimate_ok = false;
+    EXPECT_FALSE(machine.update(s).has_value());
+  }
+}
+
+TEST(ModeMachineEvents, AnEstimateLostWhileLandingLevelsTheDescent) {
+  ModeMachine machine = in(Mode::kLand);
+  Situation s = flying();
+  EXPECT_FALSE(machine.update(s).has_value());
+  EXPECT_FALSE(machine.level_descent());
+  s.estimate_ok = false;
+  EXPECT_FALSE(machine.update(s).has_value());
+  EXPECT_TRUE(machine.level_descent());
+}
+
+TEST(ModeMachineEvents, FailedNavigationHoversWithItsReason) {
+  ModeMachine machine = in(Mode::kIndoorNavigation);
+  Situation s = flying();
+  s.navigation = Navigation::kFailed;
+  s.navigation_problem = "no path to waypoint 2";
+  EXPECT_EQ(describe(machine.update(s).value()),
+            "Indoor Navigation -> Hover: no path to waypoint 2");
+  EXPECT_FALSE(machine.update(s).has_value());
+}
+
+TEST(ModeMachineEvents, ATakeoffThatStaysOnTheGroundLandsAndDisarms) {
+  ModeMachine machine = in(Mode::kTakeoff);
+  Situation s = grounded();
+  EXPECT_FALSE(machine.update(s).has_value());
+  s.now += std::chrono::seconds(3);
+  s.reference_finished = true;
+  EXPECT_EQ(machine.update(s).value().to, Mode::kLand);
+  EXPECT_EQ(machine.update(s).value().to, Mode::kGrounded);
+  EXPECT_FALSE(machine.armed());
+}
+
+TEST(ModeMachineEvents, EveryModeInTheAirHasAWayDown) {
+  for (const Mode mode : kModes) {
+    if (mode == Mode::kGrounded || mode == Mode::kLand) continue;
+    ModeMachine machine = in(mode);
+    Situation blind = flying();
+    blind.estimate_ok = false;
+    EXPECT_TRUE(machine.request(Request::land(), blind).ok()) << to_string(mode);
+    EXPECT_EQ(machine.mode(), Mode::kLand);
+    EXPECT_TRUE(machine.level_descent());
+  }
+}
+
+TEST(ModeMachine, UnusableParametersThrow) {
+  ModeMachine::Params params;
+  params.min_altitude = 20.0;
+  EXPECT_THROW(ModeMachine{params}, std::invalid_argument);
+  params = {};
+  params.landed_confirmation = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ModeMachine{params}, std::invalid_argument);
+}
+
+std::string cell(const RequestRule& rule) {
+  switch (rule.answer) {
+    case RequestRule::Answer::kGo:
+      if (rule.request == Kind::kArm) return "arms";
+      if (rule.request == Kind::kDisarm) return "disarms";
+      return to_string(rule.to);
+    case RequestRule::Answer::kAlready:
+      return "(" + std::string(rule.reason) + ")";
+    case RequestRule::Answer::kRefuse:
+      break;
+  }
+  return "refused";
+}
+
+TEST(ModeMachineReadme, ShowsTheTablesOfTheCode) {
+  std::ostringstream table;
+  table << "| mode |";
+  for (const Kind kind : kRequestKinds) table << " " << to_string(kind) << " |";
+  table << "\n| --- |";
+  for (std::size_t i = 0; i < kRequestKinds.size(); ++i) table << " --- |";
+  for (const Row& row : kExpected) {
+    table << "\n| " << to_string(row.mode);
+    if (row.mode == Mode::kGrounded) table << (row.armed ? ", armed" : ", disarmed");
+    table << " |";
+    for (const Kind kind : kRequestKinds) {
+      table << " " << cell(ModeMachine::rule(row.mode, row.armed, kind)) << " |";
+    }
+  }
+  table << "\n";
+  std::ostringstream events;
+  events << "| from | what happens | to |\n| --- | --- | --- |\n";
+  for (const EventRule& rule : ModeMachine::event_rules()) {
+    events << "| " << to_string(rule.from) << " | " << to_string(rule.event) << " | "
+           << to_string(rule.to) << " |\n";
+  }
+  std::ifstream file(SWIFTLET_SOURCE_DIR "/control/README.md");
+  std::stringstream readme;
+  readme << file.rdbuf();
+  EXPECT_THAT(readme.str(), HasSubstr(table.str()));
+  EXPECT_THAT(readme.str(), HasSubstr(events.str()));
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/path/clearance_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/planner/path/maps.hpp"
+
+namespace swiftlet {
+namespace {
+
+TEST(ClearanceMap, ClearanceIsTheDistanceToTheFaceOfObstacles) {
+  std::mt19937 random(1);
+  const OccupancyGrid grid = test::office();
+  const auto map = ClearanceMap::make(grid, {});
+  ASSERT_TRUE(map.ok());
+  std::uniform_real_distribution<double> x(0.3, 14.9), y(0.3, 9.9);
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector2d p(x(random), y(random));
+    const double truth = test::true_clearance(grid, p);
+    if (truth < 0.05) continue;
+    const double error = map->clearance_at(p) - truth;
+    // Beside a corner the distance to its cell's centre less half a cell is up to 0.21 cells more
+    // than to the corner; on a ridge, interpolation takes up to half a cell off.
+    EXPECT_LT(error, 0.21 * 0.05 + 2e-3) << p.transpose();
+    EXPECT_GT(error, -0.5 * 0.05) << p.transpose();
+  }
+}
+
+TEST(ClearanceMap, TheCostOfALineIsTheIntegralOfItsDensity) {
+  std::mt19937 random(2);
+  const auto map = ClearanceMap::make(test::office(), {});
+  ASSERT_TRUE(map.ok());
+  std::uniform_real_distribution<double> x(-0.5, 15.5), y(-0.5, 10.5);
+  int finite = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector2d a(x(random), y(random)), b(x(random), y(random));
+    const double cost = map->segment_cost(a, b);
+    double integral = 0.0;
+    const int steps = 4000;
+    for (int k = 0; k < steps; ++k) {
+      integral += map->density_at(a + (b - a) * ((k + 0.5) / steps)) * (b - a).norm() / steps;
+    }
+    if (std::isfinite(integral)) {
+      EXPECT_NEAR(cost, integral, 0.01 * integral);
+      ++finite;
+    } else if (std::isfinite(cost)) {
+      // Only what is nearly allowed may slip through between two looks.
+      for (int k = 0; k <= 400; ++k) {
+        EXPECT_GT(map->clearance_at(a + (b - a) * (k / 400.0)), 0.35 - 0.02);
+      }
+    }
+    EXPECT_GE(cost, (b - a).norm() * (1 - 1e-12));
+  }
+  EXPECT_GT(finite, 100);
+}
+
+TEST(ClearanceMap, UnknownSpaceCostsMoreOrIsClosed) {
+  OccupancyGrid grid = test::hall(6, 6);
+  test::paint(grid, 2, 0.1, 4, 5.9, CellState::kUnknown);
+  PathCost cost;
+  const auto open = ClearanceMap::make(grid, cost);
+  ASSERT_TRUE(open.ok());
+  EXPECT_DOUBLE_EQ(open->density_at({3, 3}), 1.0 + cost.unknown_weight);
+  EXPECT_DOUBLE_EQ(open->density_at({1.5, 3}), 1.0);
+  cost.unknown_is_free = false;
+  const auto closed = ClearanceMap::make(grid, cost);
+  ASSERT_TRUE(closed.ok());
+  EXPECT_EQ(closed->density_at({3, 3}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(closed->density_at({1.8, 3}), std::numeric_limits<double>::infinity());
+}
+
+TEST(ClearanceMap, ReachesBeyondTheGrid) {
+  const OccupancyGrid grid = test::hall(6, 6);
+  const auto map = ClearanceMap::make(grid, {}, {{9.0, -4.0}}, 0.5);
+  ASSERT_TRUE(map.ok());
+  EXPECT_TRUE(map->contains(Eigen::Vector2d(9.4, -4.4)));
+  EXPECT_TRUE(map->unknown_at({9.0, -4.0}));
+  EXPECT_NEAR(map->clearance_at({3.0, -1.0}), 1.0, 0.01);
+  EXPECT_LT(map->clearance_at({90.0, 0.0}), 0.0);
+}
+
+TEST(ClearanceMap, RefusesWhatMakesNoMap) {
+  const OccupancyGrid grid = test::hall(3, 3);
+  EXPECT_FALSE(ClearanceMap::make(OccupancyGrid(), {}).ok());
+  EXPECT_FALSE(ClearanceMap::make(grid, {}, {{std::nan(""), 0}}).ok());
+  EXPECT_FALSE(ClearanceMap::make(grid, {}, {{1e6, 1e6}}).ok());
+  PathCost cost;
+  cost.radius = std::nan("");
+  EXPECT_FALSE(ClearanceMap::make(grid, cost).ok());
+  const ClearanceMap none;
+  EXPECT_LT(none.clearance_at({0, 0}), 0.0);
+}
+
+}  // namespace
+}  // namespace swiftlet
