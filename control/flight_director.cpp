@@ -27,11 +27,13 @@ double age(Time now, const std::optional<Time>& then) {
 
 FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {}
 
-void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double position_sigma) {
+void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double position_sigma,
+                                  double heading_sigma) {
   if (!state.p_WB.allFinite() || !state.v_WB_W.allFinite()) return;  // its age will tell
   state_ = state;
   estimate_time_ = time;
   position_sigma_ = position_sigma;
+  heading_sigma_ = heading_sigma;
 }
 
 std::string FlightDirector::estimate_problem(Time now) const {
@@ -48,6 +50,10 @@ std::string FlightDirector::estimate_problem(Time now) const {
 std::string FlightDirector::not_ready_reason(Time now) const {
   const std::string estimate = estimate_problem(now);
   if (!estimate.empty()) return estimate;
+  if (!(heading_sigma_ <= params_.heading_sigma_to_arm)) {
+    return fmt::format("heading is known to {:.3f} rad only, {:.3f} are needed; wait",
+                       heading_sigma_, params_.heading_sigma_to_arm);
+  }
   if (age(now, motors_heard_) > kMotorsTimeout) {
     return "no motor commands were heard; is the flight_controller running?";
   }

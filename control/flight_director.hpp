@@ -59,6 +59,7 @@ class FlightDirector {
     double plan_timeout = 2.0;         ///< an unanswered goal fails after [s]
     double estimate_timeout = 0.10;    ///< [s]
     double estimate_sigma_max = 0.30;  ///< of the position, any axis [m]
+    double heading_sigma_to_arm = 0.02;    ///< better known before take-off [rad]
     double min_battery_percentage = 0.15;  ///< to take off [0..1]
   };
 
@@ -82,7 +83,9 @@ class FlightDirector {
   /// Throws std::invalid_argument where a parameter cannot be used.
   explicit FlightDirector(const Params& params);
 
-  void set_estimate(Time time, const RigidBodyState& state, double position_sigma);
+  /// Sigmas are those of the worst axis of the position [m] and of the heading [rad].
+  void set_estimate(Time time, const RigidBodyState& state, double position_sigma,
+                    double heading_sigma);
   void set_range_down(double range) { range_down_ = range; }
   void set_battery(double percentage) { battery_percentage_ = percentage; }
   /// That the flight controller is alive, heard at `time`.
@@ -113,6 +116,7 @@ class FlightDirector {
   RigidBodyState state_;
   std::optional<Time> estimate_time_;
   double position_sigma_ = 0.0;
+  double heading_sigma_ = 0.0;
   std::optional<double> range_down_;
   std::optional<double> battery_percentage_;
   std::optional<Time> motors_heard_;

@@ -31,6 +31,7 @@ FlightDirector::Params read_params(const Config& config) {
   config.read("arrival_distance", params.arrival_distance, kPositive);
   config.read("plan_timeout", params.plan_timeout, kPositive);
   config.read("estimate_sigma_max", params.estimate_sigma_max, kPositive);
+  config.read("heading_sigma_to_arm", params.heading_sigma_to_arm, kPositive);
   config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
   return params;
 }
@@ -89,7 +90,7 @@ class Commander : public Component {
       const auto& covariance = odometry.pose().covariance();
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
       director_.set_estimate(from_msg(odometry.header().stamp()), from_msg(odometry),
-                             std::sqrt(variance));
+                             std::sqrt(variance), std::sqrt(covariance[35]));
     });
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       director_.set_range_down(range.range());

@@ -25,6 +25,9 @@ struct Params {
 
 Params read_params(const Config& config) {
   Params params;
+  // A beam without an echo is as often a dark or slanted wall as open space.
+  params.grid.clear_without_return = false;
+  config.read("clear_without_return", params.grid.clear_without_return);
   config.read("resolution", params.grid.resolution, {0.005, 1.0});
   config.read("hit_probability", params.grid.hit_probability, {0.51, 0.99});
   config.read("miss_probability", params.grid.miss_probability, {0.01, 0.49});

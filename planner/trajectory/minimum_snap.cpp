@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +17,8 @@ using Matrix8d = Eigen::Matrix<double, 8, 8>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 /// Position to jerk of the four axes (one column each) at a knot.
 using Knot = Eigen::Matrix4d;
+/// Velocity, acceleration and jerk of the four axes.
+using FreeKnot = Eigen::Matrix<double, 3, 4>;
 
 /// Coefficients of degree 7 from position, velocity, acceleration and jerk at s = 0 and s = 1.
 Matrix8d coefficients_from_ends() {
@@ -54,7 +56,6 @@ Status check(const FlatReference& start, const std::vector<Waypoint>& waypoints)
                 std::isfinite(start.yaw_acceleration);
   if (!finite) return Error{"the start of the trajectory is not finite"};
   if (waypoints.empty()) return Error{"a trajectory needs a waypoint to fly to"};
-  if (waypoints.back().free) return Error{"the last waypoint of a trajectory cannot be free"};
   for (const Waypoint& waypoint : waypoints) {
     finite = finite && waypoint.position.allFinite() && std::isfinite(waypoint.yaw);
   }
@@ -92,7 +93,7 @@ Result<Trajectory> minimum_snap(Time start_time, const FlatReference& start,
   knots[0] = time_powers(mean).asDiagonal() * knot_of(start);
   double yaw = start.yaw;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!waypoints[i].free) yaw += wrap_angle(waypoints[i].yaw - yaw);
+    yaw += wrap_angle(waypoints[i].yaw - yaw);
     knots[i + 1].row(0) << waypoints[i].position.transpose(), yaw;
   }
 
@@ -107,34 +108,34 @@ Result<Trajectory> minimum_snap(Time start_time, const FlatReference& start,
     cost[i] = powers.asDiagonal() * Q * powers.asDiagonal() / std::pow(T, 7);
   }
 
-  // The cost is stationary in what is free at the inner knots, and the rest is given: a
-  // block-tridiagonal system lower x[k-1] + diagonal x[k] + upper x[k+1] = right, solved from the
-  // first knot to the last and back.
-  std::vector<Eigen::PartialPivLU<Eigen::Matrix4d>> diagonal(n);
-  std::vector<Eigen::Matrix4d> upper(n);
-  std::vector<Knot> right(n);
+  // Stationary in the free derivatives of the inner knots: block-tridiagonal, from the first knot
+  // to the last and back. diagonal[k] x[k] = right[k] - upper x[k + 1].
+  std::vector<Eigen::LLT<Eigen::Matrix3d>> diagonal(n);
+  std::vector<FreeKnot> right(n);
   for (std::size_t k = 1; k < n; ++k) {
-    Eigen::Matrix4d lower = cost[k - 1].block<4, 4>(4, 0);
-    Eigen::Matrix4d D = cost[k - 1].block<4, 4>(4, 4) + cost[k].block<4, 4>(0, 0);
-    upper[k] = cost[k].block<4, 4>(0, 4);
-    Knot r = Knot::Zero();
-    if (!waypoints[k - 1].free) {
-      lower.row(0).setZero();
-      upper[k].row(0).setZero();
-      D.row(0) = Eigen::RowVector4d(1, 0, 0, 0);
-      r.row(0) = knots[k].row(0);
-    }
+    const Matrix8d& in = cost[k - 1];
+    const Matrix8d& out = cost[k];
+    Eigen::Matrix3d D = in.block<3, 3>(5, 5) + out.block<3, 3>(1, 1);
+    FreeKnot r = -(in.block<3, 1>(5, 0) * knots[k - 1].row(0) +
+                   (in.block<3, 1>(5, 4) + out.block<3, 1>(1, 0)) * knots[k].row(0) +
+                   out.block<3, 1>(1, 4) * knots[k + 1].row(0));
     if (k == 1) {
-      r -= lower * knots[0];
+      r -= in.block<3, 3>(5, 1) * knots[0].bottomRows<3>();
     } else {
-      D -= lower * diagonal[k - 1].solve(upper[k - 1]);
+      const Eigen::Matrix3d lower = in.block<3, 3>(5, 1);
+      D -= lower * diagonal[k - 1].solve(lower.transpose());
       r -= lower * diagonal[k - 1].solve(right[k - 1]);
     }
     diagonal[k].compute(D);
     right[k] = r;
+    if (diagonal[k].info() != Eigen::Success) {
+      return Error{"the durations of neighbouring pieces differ too much for a solution"};
+    }
   }
   for (std::size_t k = n - 1; k >= 1; --k) {
-    knots[k] = diagonal[k].solve(right[k] - upper[k] * knots[k + 1]);
+    FreeKnot r = right[k];
+    if (k + 1 < n) r -= cost[k].block<3, 3>(1, 5) * knots[k + 1].bottomRows<3>();
+    knots[k].bottomRows<3>() = diagonal[k].solve(r);
   }
 
   std::vector<TrajectorySegment> segments(n);

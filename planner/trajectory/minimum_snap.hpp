@@ -15,7 +15,6 @@ namespace swiftlet {
 struct Waypoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   double yaw = 0.0;                                    ///< [rad], turned to over the shorter side
-  bool free = false;  ///< only a knot of the polynomials: goes where the cost is least
 };
 
 /// The trajectory that minimises the integral of the squared snap, the cost functional of seed 000
@@ -54,8 +53,12 @@ class MinimumSnapPlanner {
   /// Minimum-snap trajectory through the waypoints with speed and acceleration within the limits at
   /// every moment. Times start from a trapezoidal speed profile that slows down in turns, are
   /// shifted to the pieces that need them most, and are stretched together until no limit is
-  /// broken, with the derivatives of the start kept as they are. Fails when the start itself breaks
-  /// a limit or stretching does not help.
+  /// broken.
+  ///
+  /// The derivatives of the start are kept as they are. Where stretching does not help, since
+  /// longer pieces only give the acceleration of the start more time to act, a short first piece
+  /// ends acceleration and jerk, and the minimum starts from there (continuous up to the jerk).
+  /// Fails when the start itself breaks a limit or nothing of this helps.
   Result<Trajectory> plan(Time start_time, const FlatReference& start,
                           const std::vector<Waypoint>& waypoints) const;
 

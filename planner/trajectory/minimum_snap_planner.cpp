@@ -26,10 +26,64 @@ double trapezoid_s(double distance, double v0, double v1, double v_max, double a
 constexpr int kRoundsForReserve = 10;
 constexpr double kBalance = 0.5;  // less than 1, since pieces pull at their neighbours
 
-// Of pieces whose end is free, tried one after the other for a start in motion.
-constexpr double kFirstPieces_s[] = {0.0, 0.4, 0.8, 1.6};
-// Slower counts as at rest [m/s], [m/s^2], [m/s^3].
+// A first piece that ends acceleration and jerk: how long, and what it keeps of the speed.
+constexpr double kLevelling_s[] = {0.3, 0.6, 1.0, 1.6};
+constexpr double kBraking[] = {0.5, 0.0};
+// In units of the time that braking takes at the limit; a smooth one needs 15/8 of it.
+constexpr double kBrakingTimes[] = {2.1, 3.0, 4.5};
+// Slower counts as at rest: [m/s], [m/s^2], [m/s^3].
 constexpr double kRest = 1e-6;
+// Rounds of stretching before levelling is tried.
+constexpr int kRoundsInMotion = 15;
+
+/// Velocity, acceleration and jerk of x, y, z and yaw.
+using Motion = Eigen::Matrix<double, 3, 4>;
+
+Motion motion_of(const FlatReference& start) {
+  Motion motion;
+  motion << start.velocity.transpose(), start.yaw_rate, start.acceleration.transpose(),
+      start.yaw_acceleration, start.jerk.transpose(), 0.0;
+  return motion;
+}
+
+/// The piece over `T` seconds to a velocity, without acceleration and jerk, wherever that is: the
+/// velocity is the quintic of Hermite, which is the one of least snap.
+TrajectorySegment level_out(const FlatReference& start, const Eigen::RowVector4d& velocity,
+                            double T) {
+  const Motion motion = motion_of(start);
+  TrajectorySegment segment;
+  segment.duration_s = T;
+  for (int axis = 0; axis < 4; ++axis) {
+    const double v = motion(0, axis) * T, a = motion(1, axis) * T * T;
+    const double j = motion(2, axis) * T * T * T, d = velocity[axis] * T - v;
+    // v(s) = v + a s + j s^2 / 2 + ..., integrated.
+    segment.coefficients[static_cast<std::size_t>(axis)].head<7>()
+        << (axis == kYaw ? start.yaw : start.position[axis]),
+        v, a / 2, j / 6, (10 * d - 6 * a - 1.5 * j) / 4, (-15 * d + 8 * a + 1.5 * j) / 5,
+        (6 * d - 3 * a - 0.5 * j) / 6;
+  }
+  return segment;
+}
+
+/// First pieces that may help a start in motion, from the fastest to a stop.
+std::vector<TrajectorySegment> first_pieces(const FlatReference& start,
+                                            const MinimumSnapPlanner::Params& params) {
+  const Motion motion = motion_of(start);
+  std::vector<TrajectorySegment> pieces;
+  for (const double T : kLevelling_s) {
+    // The velocity that is reached anyway while acceleration and jerk fade.
+    const Eigen::RowVector4d v = motion.row(0) + motion.row(1) * T / 2 + motion.row(2) * T * T / 12;
+    pieces.push_back(level_out(start, v, T));
+  }
+  for (const double keep : kBraking) {
+    for (const double times : kBrakingTimes) {
+      const double change = (1 - keep) * start.velocity.norm() + 0.3 * params.max_speed;
+      const double T = times * change / params.max_acceleration;
+      pieces.push_back(level_out(start, keep * motion.row(0), T));
+    }
+  }
+  return pieces;
+}
 
 /// By how much every piece would have to be longer to keep its speed and its acceleration.
 std::vector<double> loads(const Trajectory& trajectory, double v_max, double a_max) {
@@ -88,12 +142,13 @@ std::vector<double> allocate(const FlatReference& start, const std::vector<Waypo
   return durations;
 }
 
-/// Chooses durations, of all pieces but the first `fixed`, and solves.
+/// Chooses durations and solves.
 Result<Trajectory> fit(Time start_time, const FlatReference& start,
-                       const std::vector<Waypoint>& waypoints, std::vector<double> durations,
-                       std::size_t fixed, const MinimumSnapPlanner::Params& params) {
+                       const std::vector<Waypoint>& waypoints, int max_iterations,
+                       const MinimumSnapPlanner::Params& params) {
   const double share = target_share(start, params);
   const double v_max = share * params.max_speed, a_max = share * params.max_acceleration;
+  std::vector<double> durations = allocate(start, waypoints, v_max, a_max, params);
   // Shares of the time first: pieces that are nearer to a limit than others get more of it.
   std::vector<double> best = durations;
   double best_total = std::numeric_limits<double>::infinity();
@@ -106,16 +161,16 @@ Result<Trajectory> fit(Time start_time, const FlatReference& start,
     if (total < best_total) {
       best_total = total;
       best = durations;
-      for (std::size_t i = fixed; i < best.size(); ++i) best[i] *= worst;
+      for (double& duration : best) duration *= worst;
     }
-    for (std::size_t i = fixed; i < durations.size(); ++i) {
+    for (std::size_t i = 0; i < durations.size(); ++i) {
       durations[i] *= std::pow(std::clamp(load[i] / worst, 0.3, 1.0), kBalance);
     }
   }
   // Then all of it together. From rest the first round is the last: speed goes with 1 / time.
   durations = best;
   double worst = 0.0;
-  for (int iteration = 0; iteration < params.max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Result<Trajectory> trajectory = minimum_snap(start_time, start, waypoints, durations);
     if (!trajectory) return trajectory;
     // The reserve may be used up where stretching does not win it back.
@@ -123,13 +178,11 @@ Result<Trajectory> fit(Time start_time, const FlatReference& start,
     const std::vector<double> load = loads(*trajectory, slack * v_max, slack * a_max);
     worst = *std::max_element(load.begin(), load.end());
     if (worst <= 1.0) return trajectory;
-    for (std::size_t i = fixed; i < durations.size(); ++i) {
-      durations[i] *= std::clamp(worst + 1e-5, 1.0, 1.2);
-    }
+    for (double& duration : durations) duration *= std::clamp(worst + 1e-5, 1.0, 1.2);
   }
   return Error{
       fmt::format("after {} rounds of stretching the trajectory is still {:.3g} times too fast",
-                  params.max_iterations, worst)};
+                  max_iterations, worst)};
 }
 
 }  // namespace
@@ -155,25 +208,28 @@ Result<Trajectory> MinimumSnapPlanner::plan(Time start_time, const FlatReference
   const std::vector<double> some(waypoints.size(), 1.0);
   if (const auto check = minimum_snap(start_time, start, waypoints, some); !check) return check;
 
-  const double share = target_share(start, params_);
-  const std::vector<double> durations = allocate(start, waypoints, share * params_.max_speed,
-                                                 share * params_.max_acceleration, params_);
   const bool at_rest = start.velocity.norm() < kRest && start.acceleration.norm() < kRest &&
                        start.jerk.norm() < kRest;
-  // Longer pieces give what the start has already more time to act, so stretching does not end what
-  // it breaks. A short first piece with a free end does: it takes up acceleration and jerk.
-  Result<Trajectory> result = Error{};
-  for (const double first_s : kFirstPieces_s) {
-    if (first_s == 0.0) {
-      result = fit(start_time, start, waypoints, durations, 0, params_);
-    } else {
-      std::vector<Waypoint> with_free = waypoints;
-      with_free.insert(with_free.begin(), Waypoint{start.position, start.yaw, true});
-      std::vector<double> with_first = durations;
-      with_first.insert(with_first.begin(), first_s);
-      result = fit(start_time, start, with_free, std::move(with_first), 1, params_);
+  const int rounds = at_rest ? params_.max_iterations : kRoundsInMotion;
+  Result<Trajectory> result = fit(start_time, start, waypoints, rounds, params_);
+  if (result || at_rest) return result;
+  for (const TrajectorySegment& first : first_pieces(start, params_)) {
+    if (max_derivative_norm(first, 1) > params_.max_speed ||
+        max_derivative_norm(first, 2) > params_.max_acceleration) {
+      continue;
     }
-    if (result || at_rest) break;
+    FlatReference level;
+    for (int axis = kX; axis <= kZ; ++axis) {
+      level.position[axis] = derivative(first, axis, 1.0, 0);
+      level.velocity[axis] = derivative(first, axis, 1.0, 1);
+    }
+    level.yaw = derivative(first, kYaw, 1.0, 0);
+    level.yaw_rate = derivative(first, kYaw, 1.0, 1);
+    result = fit(start_time, level, waypoints, params_.max_iterations, params_);
+    if (!result) continue;
+    std::vector<TrajectorySegment> segments{first};
+    segments.insert(segments.end(), result->segments().begin(), result->segments().end());
+    return Trajectory(start_time, std::move(segments));
   }
   return result;
 }
