@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace swiftlet {
 namespace {
@@ -54,13 +55,23 @@ FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
 
   const double max_density = 1.0 + map.cost().clearance_weight + map.cost().unknown_weight;
   const double unit = std::min(kUnit, kMaxStep / (kDiagonal * max_density));
-  const auto buckets = static_cast<std::size_t>(std::ceil(unit * kDiagonal * max_density)) + 2;
+  const auto straight = static_cast<std::uint32_t>(std::max(1.0, std::round(unit)));
+  const auto diagonal = static_cast<std::uint32_t>(std::max(1.0, std::round(unit * kDiagonal)));
+  // No way to the goal costs less than in eight directions at density 1.
+  const auto to_go = [&](Cell cell) {
+    const auto dx = static_cast<std::uint32_t>(std::abs(cell.x - goal.x));
+    const auto dy = static_cast<std::uint32_t>(std::abs(cell.y - goal.y));
+    return straight * (std::max(dx, dy) - std::min(dx, dy)) + diagonal * std::min(dx, dy);
+  };
+  const auto dearest = static_cast<std::size_t>(std::ceil(unit * kDiagonal * max_density));
+  const std::size_t buckets = dearest + 2 * diagonal + 2;
   std::vector<std::vector<Cell>> queue(buckets);
   cost[map.index(start)] = 0;
-  queue[0].push_back(start);
+  const std::uint32_t first = to_go(start);
+  queue[first % buckets].push_back(start);
   std::size_t waiting = 1;
   std::uint64_t last = UINT32_MAX;
-  for (std::uint32_t level = 0; waiting > 0 && level <= last; ++level) {
+  for (std::uint32_t level = first; waiting > 0 && level <= last; ++level) {
     std::vector<Cell>& bucket = queue[level % buckets];
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Cell cell = bucket[i];
@@ -79,10 +90,11 @@ FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
         const double density = 0.5 * (map.density(cell) + map.density(next));
         const auto step =
             static_cast<std::uint32_t>(std::max(1.0, std::round(unit * move.length * density)));
-        if (level + step < cost[map.index(next)]) {
-          cost[map.index(next)] = level + step;
+        const std::uint32_t through = cost[at] + step;
+        if (through < cost[map.index(next)]) {
+          cost[map.index(next)] = through;
           came_by[map.index(next)] = m;
-          queue[(level + step) % buckets].push_back(next);
+          queue[(through + to_go(next)) % buckets].push_back(next);
           ++waiting;
         }
       }

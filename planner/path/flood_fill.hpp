@@ -11,15 +11,16 @@ namespace swiftlet {
 
 /// What a vehicle at one cell can reach.
 struct FloodFill {
-  std::vector<Cell> reached;  ///< in the order of their cost
+  std::vector<Cell> reached;  ///< in the order of being reached
   std::vector<Cell> to_goal;  ///< from start to goal, empty where the goal is not reached
   std::vector<Cell> narrow;   ///< of the reached, those on the ridge between near obstacles
 };
 
-/// Fills the free cells of the map from `start` in the order of their cost (Dial's bucket queue)
-/// until the goal and what costs up to a tenth more is reached. Between free cells that touch in a
-/// corner only, the way is open where their two common neighbours are free too: then every point of
-/// the lines between their centres has the hard clearance.
+/// Fills the free cells of the map from `start`, those first that a cheap way to the goal may lead
+/// through (A* with a bucket queue), until the goal and what costs up to a tenth more is reached. A
+/// goal that cannot be reached is known when all that can be is filled. Between free cells that
+/// touch in a corner only, the way is open where their two common neighbours are free too: then
+/// every point of the lines between their centres has the hard clearance.
 FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal);
 
 }  // namespace swiftlet

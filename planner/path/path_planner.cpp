@@ -88,8 +88,7 @@ double unknown_length(const ClearanceMap& map, const Polyline& line) {
 }
 
 Polyline smooth(const ClearanceMap& map, const Polyline& rough, int rounds) {
-  Polyline line = shortcut(map, rough, kPricePerPoint);
-  line = resample(line, kSpacing);
+  Polyline line = resample(rough, kSpacing);
   relax(map, line, rounds);
   return shortcut(map, line, kPricePerPoint);
 }
@@ -167,15 +166,16 @@ PathResult PathPlanner::plan(const ClearanceMap& map, const Eigen::Vector2d& sta
   for (const Cell cell : fill.to_goal) filled.push_back(map.center_of(cell));
   filled.push_back(goal);
 
-  // 2. FMT*, and 3. the better of the two, smoothed.
-  Polyline line = smooth(map, thin(map, filled, kSpacing), params_.smoothing_rounds);
+  // 2. FMT*, and 3. the cheaper of the two, smoothed.
+  Polyline line = shortcut(map, thin(map, filled, kSpacing), kPricePerPoint);
   FastMarchingTreeParams tree;
   tree.samples = params_.samples;
   const Polyline rough = fast_marching_tree(map, fill, free_start, goal, tree, seed);
   if (rough.size() >= 2) {
-    Polyline candidate = smooth(map, rough, params_.smoothing_rounds);
+    Polyline candidate = shortcut(map, rough, kPricePerPoint);
     if (polyline_cost(map, candidate) < polyline_cost(map, line)) line = std::move(candidate);
   }
+  line = smooth(map, line, params_.smoothing_rounds);
 
   Path& path = result.path;
   path.cost = polyline_cost(map, line);

@@ -47,8 +47,8 @@ struct PathResult {
 ///  2. FMT* connects samples drawn from the cells that the fill reached: some from around the
 ///  fill's
 ///     way, some from the ridge of the distance field in narrow passages, the rest from anywhere.
-///  3. Its path and the fill's are shortened and relaxed with respect to the cost; the cheaper is
-///     the result. Where samples do not connect, the fill's is: no seed makes planning fail.
+///  3. The cheaper of its path and the fill's, both shortened, is relaxed with respect to the cost.
+///     Where samples do not connect, the fill's is taken: no seed makes planning fail.
 ///
 /// Bounded by numbers of samples, never by time. The same map, points and seed give the same path,
 /// bit for bit, whatever ran before.

@@ -171,6 +171,18 @@ TEST_F(Contact, ClearanceIsTheSmallestDistanceOfTheWholeFlight) {
   EXPECT_LT(expected, 1.2);
 }
 
+TEST_F(Contact, AWallIsNotForgottenByAVehicleThatTurnsBack) {
+  add_wall(2.0);
+  put({1.0, 0, 1.5}, Eigen::Quaterniond::Identity(), {-2.0, 0, 0});
+  const Vector3d wind(12.0, 0.0, 0.0);
+  run(0.3, wind, Vector4d::Constant(params.model.mass * kGravity / 4.0));
+  EXPECT_LT(body().p_WB.x(), 0.8);
+  EXPECT_EQ(quadrotor.hull().count(), 0);
+  run(1.2, wind, Vector4d::Constant(params.model.mass * kGravity / 4.0));
+  EXPECT_GE(quadrotor.hull().count(), 1);
+  EXPECT_LT(quadrotor.hull().min_clearance(), 0.0);
+}
+
 TEST_F(Contact, AnObstacleThatAppearsIsSeenAtOnce) {
   const Vector4d hover = Vector4d::Constant(params.model.mass * kGravity / 4.0);
   put({0, 0, 1.2});

@@ -108,6 +108,16 @@ TEST(Simulation, ASensorDoesNotChangeWhatTheOthersSee) {
   EXPECT_TRUE(same_bits(all.truth, some.truth));
 }
 
+TEST(Simulation, EqualSensorsErrDifferently) {
+  Scenario scenario = office();
+  scenario.sensors.imu1 = scenario.sensors.imu2 = scenario.sensors.imu0;
+  const Recording r = fly(scenario, 0.1);
+  ASSERT_EQ(r.imu[0].size(), r.imu[1].size());
+  EXPECT_FALSE(same_bits(r.imu[0], r.imu[1]));
+  EXPECT_FALSE(same_bits(r.imu[1], r.imu[2]));
+  EXPECT_FALSE(same_bits(r.imu[2], r.imu[0]));
+}
+
 TEST(Simulation, SensorsReadWhatTheTruthSays) {
   Scenario scenario = office();
   Simulation simulation(scenario);

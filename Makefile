@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: The Swiftlet authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Short names for what one does every day. Each target says what it is doing and repeats nothing
+# that is done already.
+
+.PHONY: help packages build program demo test test-full bench asan tsan format tidy clean
+
+PROGRAM := build/release/swiftlet
+SCENARIO := components/sim/scenarios/office.yaml
+JOBS ?= $(shell nproc)
+
+help:
+	@echo "make demo       install packages, build, and fly the office: out/demo/"
+	@echo "make test       install packages, build, and run the tests"
+	@echo "make test-full  the tests with many seeds and long runs"
+	@echo "make bench      benchmarks"
+	@echo "make asan tsan  the tests under the address and the thread sanitizer"
+	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
+	@echo "make clean      remove build/ and out/"
+
+packages:
+	@.ci/install-packages
+
+build: packages build/release/build.ninja
+	@echo "== build: release"
+	@cmake --build --preset release --parallel $(JOBS)
+
+program: packages build/release/build.ninja
+	@echo "== build: $(PROGRAM)"
+	@cmake --build --preset release --parallel $(JOBS) --target swiftlet
+
+build/%/build.ninja:
+	@echo "== configure: $*"
+	@mkdir -p build/$*
+	@cmake --preset $* > build/$*/configure.log 2>&1 || { cat build/$*/configure.log; exit 1; }
+
+demo: program
+	@echo "== fly: $(SCENARIO)"
+	@mkdir -p out/demo
+	@$(PROGRAM) --log warning fly $(SCENARIO) --record out/demo/flight.mcap --report out/demo
+
+test: build
+	@echo "== test: release"
+	@ctest --preset release --parallel $(JOBS)
+
+test-full: build
+	@echo "== test: release, everything"
+	@SWIFTLET_FULL_TESTS=1 ctest --preset release --parallel $(JOBS) --timeout 3600
+
+bench: build
+	@echo "== bench: release"
+	@build/release/swiftlet_bench --benchmark_min_time=0.2
+	@tests/bench/sim_speed $(PROGRAM) $(SCENARIO)
+
+asan tsan: packages
+	@$(MAKE) --no-print-directory build/$@/build.ninja
+	@echo "== build: $@"
+	@cmake --build --preset $@ --parallel $(JOBS)
+	@echo "== test: $@"
+	@ctest --preset $@
+
+format:
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+tidy: build
+	@git ls-files '*.cpp' | grep -v '^tests/' | xargs clang-tidy -p build/release --quiet
+
+clean:
+	rm -rf build out
