@@ -42,6 +42,7 @@ nlohmann::json to_json(const FlightReport& report) {
   json["reason"] = reason(report);
   json["contacts"] = record.contacts;
   json["min_clearance_m"] = number(record.min_clearance);
+  json["closest_at_m"] = {record.closest_at.x(), record.closest_at.y(), record.closest_at.z()};
   json["landing_error_m"] =
       record.on_ground ? number(landing_error(report)) : nlohmann::json(nullptr);
   json["position_rmse_m"] = {record.position_rmse.x(), record.position_rmse.y(),
@@ -102,8 +103,9 @@ std::string summary(const FlightReport& report) {
                                  report.scenario.name, reason(report));
   text += fmt::format("flight     {:.1f} s, {:.1f} times real time\n", report.outcome.flight_time,
                       report.speed_factor);
-  text += fmt::format("contacts   {}, clearance at least {:.2f} m\n", record.contacts,
-                      record.min_clearance);
+  text +=
+      fmt::format("contacts   {}, clearance at least {:.2f} m, at {:.1f} {:.1f}\n", record.contacts,
+                  record.min_clearance, record.closest_at.x(), record.closest_at.y());
   text += fmt::format("tracking   {:.3f} {:.3f} {:.3f} m RMSE in x, y, z\n",
                       record.position_rmse.x(), record.position_rmse.y(), record.position_rmse.z());
   if (record.on_ground) {

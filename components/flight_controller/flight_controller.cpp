@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/conversions.hpp"
-#include "components/flight_controller/model_parameters.hpp"
 #include "components/topics.hpp"
+#include "components/vehicle_model.hpp"
 #include "control/flight_loop.hpp"
 
 namespace swiftlet {
@@ -18,7 +18,7 @@ struct Params {
 
 Params read_params(const Config& config) {
   Params params;
-  read_model(config.child("model"), params.model);
+  read_vehicle_model(config.child("model"), params.model);
   Se3Controller::Params& gains = params.loop.controller;
   config.read("position_gain", gains.position_gain, kPositive);
   config.read("velocity_gain", gains.velocity_gain, kPositive);

@@ -18,8 +18,10 @@ constexpr Duration kTick = 50ms;
 constexpr Duration kResend = 500ms;
 /// A command that is not acknowledged within so long has failed.
 constexpr Duration kAckTimeout = 5s;
+/// After the rotors stopped, until the vehicle rests.
+constexpr Duration kSettle = 1s;
 /// How long the vehicle may take to become ready before it is armed.
-constexpr Duration kReadyTimeout = 20s;
+constexpr Duration kReadyTimeout = 30s;
 
 Scenario scenario_of(const Config& parameters) {
   std::string file;
@@ -115,7 +117,8 @@ void Pilot::advance(Time now) {
       break;
     case Step::kLand:
       if (status_.mode() == mode::GROUNDED && !status_.armed()) {
-        finish(true, "mission flown and landed");
+        if (!landed_at_) landed_at_ = now;
+        if (now - *landed_at_ > kSettle) finish(true, "mission flown and landed");
       } else if (status_.mode() != mode::LAND) {
         finish(false, status_.reason());
       }

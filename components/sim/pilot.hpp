@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
+#include <optional>
 #include <string>
 
 #include "components/sim/scenario.hpp"
@@ -46,6 +46,7 @@ class Pilot : public Component {
   Time sent_{};
   Time armed_at_{};
   bool started_ = false;
+  std::optional<Time> landed_at_;
   swiftlet_msgs::msg::VehicleStatus status_;
   bool status_heard_ = false;
   FlightOutcome outcome_;

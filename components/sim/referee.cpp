@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/sim/referee.hpp"
 
+#include <limits>
+
 #include "components/conversions.hpp"
 
 namespace swiftlet {
@@ -15,6 +17,7 @@ constexpr int kTrackEvery = 5;  // of the truth at 100 Hz
 }  // namespace
 
 Referee::Referee(const ComponentContext& context) : Component(context), truth_(2s) {
+  last_truth_.minimum_clearance(std::numeric_limits<double>::infinity());
   subscribe(topic::sim_truth,
             [this](const swiftlet_msgs::msg::SimTruth& truth) { on_truth(truth); });
   subscribe(topic::setpoint,
@@ -24,8 +27,9 @@ Referee::Referee(const ComponentContext& context) : Component(context), truth_(2
 }
 
 void Referee::on_truth(const swiftlet_msgs::msg::SimTruth& truth) {
-  last_truth_ = truth;
   const Eigen::Vector3d position = from_msg(truth.pose().position());
+  if (truth.minimum_clearance() < last_truth_.minimum_clearance()) record_.closest_at = position;
+  last_truth_ = truth;
   truth_.add(from_msg(truth.header().stamp()), {position, from_msg(truth.pose().orientation())});
   if (mode_ != mode::GROUNDED && ++truths_ % kTrackEvery == 0) {
     record_.flown.push_back(position);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct FlightRecord {
   int contacts = 0;
   std::string last_contact;                                 ///< name of what was touched
   double min_clearance = 0.0;                               ///< of the hull in flight [m]
+  Eigen::Vector3d closest_at = Eigen::Vector3d::Zero();     ///< where that was [m]
   Eigen::Vector3d position_rmse = Eigen::Vector3d::Zero();  ///< truth against reference [m]
   Eigen::Vector3d final_position = Eigen::Vector3d::Zero();
   bool on_ground = true;                   ///< at the end

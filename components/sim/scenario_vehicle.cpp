@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/sim/scenario_vehicle.hpp"
 
+#include "components/vehicle_model.hpp"
+
 #include <cmath>
 
 namespace swiftlet {
@@ -94,21 +96,7 @@ void read_battery(const Config& config, Battery::Params& battery) {
 }  // namespace
 
 void read_vehicle(const Config& config, Quadrotor::Params& params) {
-  QuadrotorModel& model = params.model;
-  config.read("mass", model.mass, kPositive);
-  config.read("inertia", model.inertia, kPositive);
-  config.read("arm_length", model.arm_length, kPositive);
-  config.read("torque_per_thrust", model.torque_per_thrust, kPositive);
-  config.read("rotor_thrust_min", model.rotor_thrust_min, kNotNegative);
-  config.read("rotor_thrust_max", model.rotor_thrust_max, kPositive);
-  if (model.rotor_thrust_max <= model.rotor_thrust_min) {
-    config.fail("rotor_thrust_max", "'rotor_thrust_max' must be more than 'rotor_thrust_min'");
-  }
-  if (4.0 * model.rotor_thrust_max <= model.mass * kGravity) {
-    config.fail("rotor_thrust_max",
-                "four times 'rotor_thrust_max' does not lift 'mass'; raise it or lower the mass");
-  }
-  config.read("rotor_time_constant", model.rotor_time_constant, kNotNegative);
+  read_vehicle_model(config, params.model);
   config.read("linear_drag", params.linear_drag, kNotNegative);
   config.read("quadratic_drag", params.quadratic_drag, kNotNegative);
   config.read("body_radius", params.hull.radius, kPositive);
