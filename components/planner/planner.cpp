@@ -92,7 +92,7 @@ class Planner : public Component {
     braking_ = false;
     replanner_.reset();
     // What is flown now, if nothing else: rest at the reference.
-    if (current_.empty() || now() >= current_.end()) current_ = rest_at(reference_);
+    if (current_.empty() || now() >= current_.end()) current_ = resting_at(reference_, now());
     plan();
   }
 
@@ -106,7 +106,7 @@ class Planner : public Component {
     if (braking_) {
       if (reference_.velocity.norm() > kRestSpeed) return;
       braking_ = false;
-      current_ = rest_at(reference_);
+      current_ = resting_at(reference_, now());
     }
     Replanner::Input input;
     input.now = now();
@@ -139,17 +139,6 @@ class Planner : public Component {
     trajectory_.publish(no_trajectory_msg(now(), *goal_identity_, status, phrase(decision.failure),
                                           decision.reason));
     current_ = {};
-  }
-
-  /// One second of standing still, over already: replanning continues from its end.
-  Trajectory rest_at(const FlatReference& reference) const {
-    TrajectorySegment segment;
-    segment.duration_s = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      segment.coefficients[static_cast<std::size_t>(axis)][0] = reference.position[axis];
-    }
-    segment.coefficients[kYaw][0] = reference.yaw;
-    return Trajectory(now() - 1s, {segment});
   }
 
   void publish_path(const Path& path) {

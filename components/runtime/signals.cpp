@@ -8,18 +8,19 @@
 namespace swiftlet {
 namespace {
 
-// A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t g_received = 0;
+// A signal handler can reach nothing but a global, and any thread may run it.
+std::atomic<bool> g_received{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not lock");
 
 void note(int signal) {
-  g_received = 1;
+  g_received = true;
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 SignalGuard::SignalGuard() {
-  g_received = 0;
+  g_received = false;
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
 }
@@ -30,7 +31,7 @@ SignalGuard::~SignalGuard() {
 }
 
 bool SignalGuard::received() const {
-  return g_received != 0;
+  return g_received;
 }
 
 }  // namespace swiftlet

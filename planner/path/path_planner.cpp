@@ -17,7 +17,8 @@ namespace {
 
 // Price of a corner of the path [m]: decides between equals.
 constexpr double kPricePerPoint = 0.01;
-constexpr double kSpacing = 0.30;  // of the points that relaxation moves [m]
+constexpr double kEightDirections = 0.924;  // cos(22.5 deg): a straight line over a way of steps
+constexpr double kSpacing = 0.30;           // of the points that relaxation moves [m]
 
 PathResult failed(PlanFailure failure, std::string reason) {
   PathResult result;
@@ -101,6 +102,16 @@ PathPlanner::PathPlanner(const Params& params) : params_(params) {}
 Result<ClearanceMap> PathPlanner::make_map(const OccupancyGrid& grid, const Eigen::Vector2d& start,
                                            const Eigen::Vector2d& goal) const {
   return ClearanceMap::make(grid, params_.cost, {start, goal}, params_.border);
+}
+
+double PathPlanner::least_cost(const ClearanceMap& map, const Eigen::Vector2d& start,
+                               const Eigen::Vector2d& goal) const {
+  if (map.empty() || !map.contains(start) || !map.contains(goal)) return 0.0;
+  const std::optional<Cell> from = anchor(map, start), to = anchor(map, goal);
+  if (!from || !to) return 0.0;
+  Polyline way;
+  for (const Cell cell : flood_fill(map, *from, *to).to_goal) way.push_back(map.center_of(cell));
+  return kEightDirections * polyline_cost(map, way);
 }
 
 PathResult PathPlanner::plan(const OccupancyGrid& grid, const Eigen::Vector2d& start,

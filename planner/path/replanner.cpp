@@ -49,8 +49,11 @@ Replanner::Situation Replanner::assess(const Input& input) const {
   const bool has_current = input.current != nullptr && !input.current->empty();
   s.start_time = input.now + params_.lead;
   bool on_track = false;
+  Time flown = input.now;  // the moment of the current trajectory, which may begin a little later
   if (has_current) {
-    const FlatReference now = input.current->evaluate(input.now);
+    flown = std::max(input.now, input.current->start());
+    s.start_time = std::max(s.start_time, flown);
+    const FlatReference now = input.current->evaluate(flown);
     on_track = (now.position - input.vehicle.p_WB).norm() <= params_.tracking_error_max;
     s.under_way = on_track && input.now < input.current->end();
     s.to_goal =
@@ -59,7 +62,7 @@ Replanner::Situation Replanner::assess(const Input& input) const {
   }
   if (on_track) {
     s.start = input.current->evaluate(s.start_time);
-    s.speed = input.current->evaluate(input.now).velocity.norm();
+    s.speed = input.current->evaluate(flown).velocity.norm();
   } else {
     s.start.position = input.vehicle.p_WB;
     s.start.yaw = yaw_of(input.vehicle.q_WB);
@@ -140,12 +143,13 @@ ReplanDecision Replanner::step(const Input& input) {
     return keep;
   }
 
-  // A straight line is the least that a new path can cost.
+  // What cannot become clearly better need not be planned.
   double current_cost = 0.0;
   if (!needed && situation.map) {
     current_cost = trajectory_cost(*input.current, situation.start_time, *situation.map);
-    const double least = (input.goal.position - situation.start.position).head<2>().norm();
-    if (!(least < (1.0 - params_.improvement) * current_cost)) {
+    const double least = planner_.path_planner().least_cost(
+        *situation.map, situation.start.position.head<2>(), input.goal.position.head<2>());
+    if (least >= (1.0 - params_.improvement) * current_cost) {
       last_plan_ = input.now;
       failing_since_.reset();
       return {};

@@ -30,9 +30,10 @@ struct ReplanDecision {
 ///
 /// New trajectories start on the current one, a lead time ahead, with its position, velocity,
 /// acceleration and jerk, so that the reference has no step. What is flown is kept unless it is
-/// blocked or the new path is clearly shorter. Without a plan while there is none to fly, or the
-/// one flown is blocked, planning is tried again until `give_up_after`, or until the obstacle is
-/// nearer than it takes to brake: then it fails at once.
+/// blocked or the new one is clearly cheaper. While there is none to fly, or the one flown is
+/// blocked, a failed planning is repeated at the rate until `give_up_after`, and ends in kFail.
+/// When the obstacle is nearer than it takes to brake, the answer is kBrake at once, at most
+/// `max_brakes` times a goal.
 class Replanner {
  public:
   struct Params {
@@ -40,7 +41,7 @@ class Replanner {
     Duration period = std::chrono::milliseconds(200);
     Duration lead = std::chrono::milliseconds(60);  ///< switch over so far ahead
     Duration give_up_after = std::chrono::milliseconds(1000);
-    double improvement = 0.15;        ///< cheaper by this share of the rest to be worth a change
+    double improvement = 0.03;        ///< cheaper by this share of the rest to be worth a change
     double brake_reserve_s = 0.3;     ///< on top of the time that braking takes
     double tracking_error_max = 0.5;  ///< farther off the reference, plan from the vehicle [m]
     double blocked_tolerance = 0.03;  ///< nearer than allowed by so much is not blocked: noise [m]

@@ -167,4 +167,14 @@ double Trajectory::max_acceleration() const {
   return acceleration;
 }
 
+Trajectory resting_at(const FlatReference& reference, Time end) {
+  TrajectorySegment segment;
+  segment.duration_s = 1.0;
+  segment.coefficients[kX][0] = reference.position.x();
+  segment.coefficients[kY][0] = reference.position.y();
+  segment.coefficients[kZ][0] = reference.position.z();
+  segment.coefficients[kYaw][0] = reference.yaw;
+  return Trajectory(end - std::chrono::seconds(1), {segment});
+}
+
 }  // namespace swiftlet

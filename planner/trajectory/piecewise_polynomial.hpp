@@ -58,6 +58,9 @@ class Trajectory {
   std::vector<TrajectorySegment> segments_;
 };
 
+/// One second of standing still at a reference's position and yaw, up to `end`.
+Trajectory resting_at(const FlatReference& reference, Time end);
+
 /// The same bounds for one segment: of the norm of the `order`-th derivative of the position, order
 /// 1 to 4.
 double max_derivative_norm(const TrajectorySegment& segment, int order);

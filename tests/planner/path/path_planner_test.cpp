@@ -195,6 +195,26 @@ TEST(PathPlanner, NoSeedMakesItFail) {
   EXPECT_LT(dearest, 1.02 * cheapest);
 }
 
+TEST(PathPlanner, TheLeastCostIsBelowEveryPathAndNotByMuch) {
+  const OccupancyGrid grid = test::office();
+  const PathPlanner planner;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(0.6, 14.6), y(0.6, 9.6);
+  int compared = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Eigen::Vector2d start(x(random), y(random)), goal(x(random), y(random));
+    const auto map = planner.make_map(grid, start, goal);
+    const PathResult result = planner.plan(*map, start, goal, kSeed);
+    if (!result.ok() || result.path.escapes || result.path.length < 1.0) continue;
+    const double least = planner.least_cost(*map, start, goal);
+    EXPECT_LE(least, 1.005 * result.path.cost);
+    EXPECT_GE(least, 0.85 * result.path.cost);
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+  EXPECT_EQ(planner.least_cost(ClearanceMap(), {1, 1}, {2, 2}), 0.0);
+}
+
 TEST(PathPlanner, AClosedDoorIsNoPath) {
   OccupancyGrid grid = test::office();
   test::paint(grid, 12, 5.95, 12.9, 6.1, CellState::kOccupied);

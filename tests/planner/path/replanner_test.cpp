@@ -218,6 +218,27 @@ TEST(Replanner, ANewGoalIsPlannedToAtOnceAndInFlight) {
   EXPECT_LT((decision.trajectory.final_reference().position - flight.goal().position).norm(), 1e-9);
 }
 
+TEST(Replanner, ATrajectoryThatIsAboutToBeginIsAlreadyTheCurrentOne) {
+  OccupancyGrid grid = test::hall(10, 8);
+  Replanner replanner;
+  RigidBodyState vehicle;
+  vehicle.p_WB = {1, 4, 1};
+  FlightGoal goal{{9, 4, 1}, 0.0};
+  const Time now(from_seconds(5.0));
+  const ReplanDecision first = replanner.step({now, nullptr, &grid, vehicle, goal});
+  ASSERT_EQ(first.action, ReplanAction::kFollow);
+  // Before it begins, the goal changes.
+  goal.position = {9, 6, 1};
+  const Time soon = now + std::chrono::milliseconds(1);
+  const ReplanDecision second = replanner.step({soon, &first.trajectory, &grid, vehicle, goal});
+  ASSERT_EQ(second.action, ReplanAction::kFollow);
+  EXPECT_GE(second.trajectory.start(), first.trajectory.start());
+  const Time change = second.trajectory.start();
+  EXPECT_LT(
+      (first.trajectory.evaluate(change).jerk - second.trajectory.evaluate(change).jerk).norm(),
+      1e-6);
+}
+
 TEST(Replanner, FarOffItsReferenceItPlansFromTheVehicle) {
   Flight flight(test::hall(10, 8), {1, 4, 1}, {9, 4, 1});
   flight.fly(2.0);

@@ -198,5 +198,31 @@ TEST(FirstConflict, FindsTheMomentThatAWallIsReached) {
   EXPECT_FALSE(first_conflict(free.trajectory, late, *after, 0.35, 0.0).has_value());
 }
 
+TEST(FirstConflict, ExcusesABeginningTooNearOnlyWhileItGetsNoNearer) {
+  // 0.30 m from the wall at y = 0.1, where 0.35 m are needed: x is constant, y a straight line.
+  const OccupancyGrid grid = test::hall(6, 6);
+  const auto map = ClearanceMap::make(grid, {});
+  ASSERT_TRUE(map.ok());
+  const auto line = [](double y_end) {
+    TrajectorySegment segment;
+    segment.duration_s = 2.0;
+    segment.coefficients[kX][0] = 3.0;
+    segment.coefficients[kY][0] = 0.40;
+    segment.coefficients[kY][1] = y_end - 0.40;
+    return Trajectory(Time{}, {segment});
+  };
+  EXPECT_FALSE(first_conflict(line(1.5), Time{}, *map, 0.35, 0.4).has_value());
+  const auto nearer = first_conflict(line(0.30), Time{}, *map, 0.35, 0.4);
+  ASSERT_TRUE(nearer.has_value());
+  EXPECT_LT(to_seconds(*nearer), 1.2);
+  // Along the wall, the excuse ends with the escape distance.
+  TrajectorySegment along = line(0.40).segments()[0];
+  along.coefficients[kX][1] = 2.0;
+  const auto late = first_conflict(Trajectory(Time{}, {along}), Time{}, *map, 0.35, 0.4);
+  ASSERT_TRUE(late.has_value());
+  EXPECT_NEAR(to_seconds(*late), 0.4, 0.05);
+  EXPECT_TRUE(first_conflict(line(1.5), Time{}, *map, 0.35, 0.0).has_value());
+}
+
 }  // namespace
 }  // namespace swiftlet
