@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <stdexcept>
 #include <utility>
 
 #include "estimation/geometry/so3.hpp"
@@ -16,30 +19,68 @@ using Navigation = Situation::Navigation;
 
 /// A flight controller that was not heard for so long is not there [s].
 constexpr double kMotorsTimeout = 0.5;
-/// Farther than anything that is flown to indoors [m].
-constexpr double kFarthestWaypoint = 1e4;
 
 double age(Time now, const std::optional<Time>& then) {
   return then ? to_seconds(now - *then) : 1e9;
 }
 
+bool positive(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double v) { return v > 0.0 && std::isfinite(v); });
+}
+
+/// Whether references can be made with these limits.
+bool usable(const ReferenceLimits& limits) {
+  return FlightReference::move({}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.0, limits).ok();
+}
+
 }  // namespace
 
-FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {}
+FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {
+  const bool fine =
+      usable(params.takeoff) && usable(params.landing) && usable(params.braking) &&
+      positive({params.landing_depth, params.landing_resistance, params.ground_range,
+                params.ground_height, params.plan_gap, params.arrival_distance,
+                params.arrival_speed, params.arrival_timeout, params.plan_timeout,
+                params.estimate_timeout, params.estimate_sigma_max, params.heading_sigma_to_arm}) &&
+      params.landing_resistance <= params.landing_depth && params.min_battery_percentage >= 0.0 &&
+      params.min_battery_percentage <= 1.0;
+  if (!fine) {
+    throw std::invalid_argument(
+        "flight director: speeds and accelerations must be from 0.001 to 10000, distances, "
+        "timeouts and sigmas positive, landing_resistance at most landing_depth, "
+        "min_battery_percentage from 0 to 1");
+  }
+}
 
 void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double position_sigma,
                                   double heading_sigma) {
-  if (!state.p_WB.allFinite() || !state.v_WB_W.allFinite()) return;  // its age will tell
+  const bool usable = state.p_WB.allFinite() && state.v_WB_W.allFinite() &&
+                      std::abs(state.q_WB.norm() - 1.0) < 1e-3;
+  if (!usable) return;  // its age will tell
   state_ = state;
   estimate_time_ = time;
   position_sigma_ = position_sigma;
   heading_sigma_ = heading_sigma;
 }
 
+void FlightDirector::set_range_down(double range) {
+  if (!std::isnan(range)) range_down_ = range;
+}
+
+void FlightDirector::set_battery(double percentage) {
+  battery_percentage_.reset();
+  if (!std::isnan(percentage)) battery_percentage_ = percentage;
+}
+
 std::string FlightDirector::estimate_problem(Time now) const {
   if (!estimate_time_) return "no odometry was heard; is the estimator running?";
   if (age(now, estimate_time_) > params_.estimate_timeout) {
     return fmt::format("no odometry for {:.2f} s", age(now, estimate_time_));
+  }
+  if (age(now, estimate_time_) < -params_.estimate_timeout) {
+    return fmt::format("odometry is stamped {:.2f} s ahead; do the clocks agree?",
+                       -age(now, estimate_time_));
   }
   if (!(position_sigma_ <= params_.estimate_sigma_max)) {
     return fmt::format("position is known to {:.2f} m only", position_sigma_);
@@ -73,14 +114,33 @@ Situation FlightDirector::situation(Time now) const {
   situation.estimate_problem = estimate_problem(now);
   situation.estimate_ok = situation.estimate_problem.empty();
   situation.height = state_.p_WB.z() - takeoff_point_.z();
-  // Furniture below must not look like the ground, so the height has to agree while it is known.
-  const bool near_ground = range_down_ && *range_down_ < params_.ground_range;
-  const bool low = situation.height < params_.ground_height || !situation.estimate_ok;
-  situation.on_ground = near_ground && (low || !machine_.armed());
+  if (machine_.armed()) {
+    // Furniture below must not look like the ground: the height has to agree while it is known.
+    situation.on_ground = sonar_near_ground() && (low() || !situation.estimate_ok);
+  } else {
+    situation.on_ground = sonar_near_ground() || !range_down_;  // without it, not ready is said
+  }
   situation.reference_finished = simple_.finished(now);
   situation.navigation = navigation_;
   situation.navigation_problem = navigation_problem_;
   return situation;
+}
+
+bool FlightDirector::sonar_near_ground() const {
+  return range_down_ && *range_down_ < params_.ground_range;
+}
+
+bool FlightDirector::low() const {
+  return state_.p_WB.z() - takeoff_point_.z() < params_.ground_height;
+}
+
+/// Of three witnesses (resistance, sonar, height) all are heard, or, where sonar and height do not
+/// agree (a table, a higher floor, a sonar without echo), one of them and much more resistance.
+bool FlightDirector::landed(Time now) const {
+  if (blind_ || !estimate_problem(now).empty()) return sonar_near_ground();
+  const double resistance = state_.p_WB.z() - reference(now).position.z();
+  if (sonar_near_ground() && low()) return resistance >= params_.landing_resistance;
+  return (sonar_near_ground() || low()) && resistance >= params_.landing_depth;
 }
 
 Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
@@ -93,69 +153,18 @@ Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
   return result;
 }
 
-Result<Acceptance> FlightDirector::fly(std::uint64_t id,
-                                       const std::vector<MissionWaypoint>& waypoints, Time now) {
-  std::string problem;
-  if (waypoints.empty()) problem = "it has no waypoints";
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const bool usable = waypoints[i].position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
-                        waypoints[i].position.allFinite() &&
-                        std::isfinite(waypoints[i].yaw.value_or(0.0));
-    if (!usable) problem = fmt::format("waypoint {} is not a place that can be flown to", i + 1);
-  }
-  const bool replaced = machine_.mode() == Mode::kIndoorNavigation;
-  Result<Acceptance> result = machine_.request(Request::navigate(id, problem), situation(now));
-  if (!result.ok() || *result != Acceptance::kChanged) return result;
-  last_reason_ = replaced ? "another mission requested" : "mission requested";
-  waypoints_ = waypoints;
-  waypoint_ = 0;
-  mission_done_ = false;
-  enter(Mode::kIndoorNavigation, now);
-  return result;
-}
-
-void FlightDirector::set_plan(const PlanAnswer& answer) {
-  if (navigation_ != Navigation::kActive || !goal_ || answer.goal != goal_->identity) return;
-  if (answer.brake) {
-    brake_asked_ = true;
-    return;
-  }
-  if (answer.trajectory.empty()) {
-    navigation_ = Navigation::kFailed;
-    navigation_problem_ = fmt::format("{} to waypoint {}{}", answer.failure, waypoint_ + 1,
-                                      answer.reason.empty() ? "" : ": " + answer.reason);
-    return;
-  }
-  waiting_since_.reset();
-  // What was to come after the beginning of this one is outdated.
-  while (!coming_.empty() && coming_.back().start() >= answer.trajectory.start()) {
-    coming_.pop_back();
-  }
-  coming_.push_back(answer.trajectory);
-}
-
 FlightDirector::Directive FlightDirector::tick(Time now) {
-  while (!coming_.empty() && coming_.front().start() <= now) {
-    active_ = coming_.front();
-    coming_.pop_front();
-  }
   if (machine_.mode() == Mode::kIndoorNavigation) follow_mission(now);
 
+  Situation seen = situation(now);
+  if (machine_.mode() == Mode::kLand) seen.on_ground = landed(now);
   Directive directive;
-  directive.transition = machine_.update(situation(now));
+  directive.transition = machine_.update(seen);
   if (directive.transition) {
     last_reason_ = directive.transition->reason;
     enter(directive.transition->to, now);
   }
-  if (machine_.mode() == Mode::kLand && !descending_ && simple_.finished(now)) {
-    const FlatReference rest = simple_.final();
-    Eigen::Vector3d below = rest.position;
-    below.z() = std::min(below.z(), takeoff_point_.z()) - params_.landing_depth;
-    const auto descent =
-        FlightReference::move(now, rest.position, below, rest.yaw, params_.landing);
-    if (descent.ok()) simple_ = *descent;
-    descending_ = true;
-  }
+  if (machine_.mode() == Mode::kLand) sink(now);
 
   directive.setpoint.time = now;
   if (machine_.mode() == Mode::kGrounded) {
@@ -174,81 +183,71 @@ FlatReference FlightDirector::reference(Time now) const {
   return active_ ? active_->evaluate(now) : simple_.at(now);
 }
 
+FlatReference FlightDirector::at_vehicle() const {
+  FlatReference reference;
+  reference.position = state_.p_WB;
+  reference.velocity = state_.v_WB_W;
+  reference.yaw = yaw_of(state_.q_WB);
+  return reference;
+}
+
 void FlightDirector::enter(Mode mode, Time now) {
-  if (mode == Mode::kIndoorNavigation) {
-    rest_or_brake(now);
-    navigation_ = Navigation::kActive;
-    next_waypoint(now);
-    return;
-  }
+  // After a blind descent nothing is known of where the old reference is.
+  const FlatReference flown = std::exchange(blind_, false) ? at_vehicle() : reference(now);
   navigation_ = Navigation::kInactive;
   goal_.reset();
+  answers_.clear();
   switch (mode) {
     case Mode::kTakeoff: {
+      takeoff_point_ = state_.p_WB;
       Eigen::Vector3d above = takeoff_point_;
       above.z() += machine_.takeoff_altitude();
+      stop(at_vehicle(), now);
       const auto climb =
           FlightReference::move(now, takeoff_point_, above, yaw_of(state_.q_WB), params_.takeoff);
       if (climb.ok()) simple_ = *climb;
-      active_.reset();
       break;
     }
     case Mode::kGrounded: {
-      active_.reset();
-      const auto here = FlightReference::hold(state_.p_WB, yaw_of(state_.q_WB));
-      if (here.ok()) simple_ = *here;
+      FlatReference rest = at_vehicle();
+      rest.velocity.setZero();
+      stop(rest, now);
       break;
     }
-    default:
-      rest_or_brake(now);
+    case Mode::kLand:
+      // A climb that has not left the ground is not sunk from its end.
+      stop(sonar_near_ground() && low() ? at_vehicle() : flown, now);
+      break;
+    case Mode::kHover:
+      stop(flown, now);
+      break;
+    case Mode::kIndoorNavigation:
+      stop(flown, now);
+      navigation_ = Navigation::kActive;
+      break;
   }
-  descending_ = false;
 }
 
-void FlightDirector::rest_or_brake(Time now) {
-  const FlatReference from = reference(now);
+/// Forgets all plans and brakes to rest.
+void FlightDirector::stop(const FlatReference& from, Time now) {
   active_.reset();
   coming_.clear();
-  const auto brake = FlightReference::brake(now, from, params_.braking);
+  auto brake = FlightReference::brake(now, from, params_.braking);
+  if (!brake.ok()) brake = FlightReference::hold(state_.p_WB, yaw_of(state_.q_WB));
   if (brake.ok()) simple_ = *brake;
 }
 
-void FlightDirector::next_waypoint(Time now) {
-  goal_ = PlanGoal{now, waypoints_[waypoint_]};
-  waiting_since_ = now;
-  brake_asked_ = false;
-}
-
-void FlightDirector::follow_mission(Time now) {
-  if (navigation_ != Navigation::kActive) return;
-  if (std::exchange(brake_asked_, false)) {
-    rest_or_brake(now);
-    waiting_since_ = now;
-  }
-  if (waiting_since_) {
-    if (to_seconds(now - *waiting_since_) > params_.plan_timeout) {
-      navigation_ = Navigation::kFailed;
-      navigation_problem_ =
-          fmt::format("no plan to waypoint {} within {:.1f} s; is the planner running?",
-                      waypoint_ + 1, params_.plan_timeout);
-    }
-    return;
-  }
-  if (!active_ || !coming_.empty() || now < active_->end()) return;
-  const Eigen::Vector3d to_go = waypoints_[waypoint_].position - state_.p_WB;
-  const bool arrived =
-      to_go.norm() < params_.arrival_distance && state_.v_WB_W.norm() < params_.arrival_speed;
-  if (arrived && waypoint_ + 1 == waypoints_.size()) {
-    navigation_ = Navigation::kFinished;
-    mission_done_ = true;
-  } else if (arrived) {
-    ++waypoint_;
-    next_waypoint(now);
-  } else if (to_seconds(now - active_->end()) > params_.arrival_timeout) {
-    navigation_ = Navigation::kFailed;
-    navigation_problem_ =
-        fmt::format("waypoint {} was missed by {:.2f} m", waypoint_ + 1, to_go.norm());
-  }
+/// Once at rest downwards, and further where the ground does not come.
+void FlightDirector::sink(Time now) {
+  const bool was_blind = std::exchange(blind_, machine_.level_descent());
+  if (blind_) return;
+  if (was_blind) stop(at_vehicle(), now);
+  if (!simple_.finished(now)) return;
+  const FlatReference rest = simple_.final();
+  Eigen::Vector3d below = rest.position;
+  below.z() = std::min(below.z(), takeoff_point_.z()) - params_.landing_depth;
+  const auto descent = FlightReference::move(now, rest.position, below, rest.yaw, params_.landing);
+  if (descent.ok()) simple_ = *descent;
 }
 
 FlightDirector::Status FlightDirector::status(Time now) const {

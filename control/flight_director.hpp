@@ -40,9 +40,16 @@ struct PlanGoal {
 /// flown, this class how. Pure: time and everything else is passed in.
 ///
 /// Take-off and landing are vertical moves with bounded jerk, Hover brakes and holds, Indoor
-/// Navigation follows the planner's trajectories, which must begin on the reference that is flown.
-/// A mission goes from waypoint to waypoint and rests at each; when there is no plan, the mission
-/// ends in Hover, and the reason names the waypoint.
+/// Navigation follows the planner's trajectories. A mission goes from waypoint to waypoint and
+/// rests at each; a goal is set at rest only, so that planner and director agree where it begins. A
+/// trajectory that begins neither on the reference that is flown nor at the vehicle is refused,
+/// and the vehicle stops. When there is no plan in time, the mission ends in Hover, and the reason
+/// names the waypoint.
+///
+/// A landing sinks until the vehicle resists: its height stays above the reference although the
+/// reference goes below the ground. Sonar or height alone do not tell the ground from 3 cm above.
+/// While the estimate is lost the sonar has to do; when it comes back, the landing goes on from
+/// where the vehicle is.
 class FlightDirector {
  public:
   struct Params {
@@ -51,12 +58,14 @@ class FlightDirector {
     ReferenceLimits landing{0.4, 0.8, 5.0, 2.0, 10.0};
     ReferenceLimits braking{1.0, 2.0, 15.0, 2.0, 10.0};
     double landing_depth = 0.4;        ///< a landing aims so far below the take-off point [m]
+    double landing_resistance = 0.10;  ///< landed is so far above the landing's reference [m]
     double ground_range = 0.18;        ///< the downward sonar reads less on the ground [m]
     double ground_height = 0.25;       ///< and the estimate says less above the take-off point [m]
+    double plan_gap = 0.10;            ///< farther off what is flown no plan may begin [m]
     double arrival_distance = 0.15;    ///< nearer to the waypoint counts as there [m]
     double arrival_speed = 0.20;       ///< [m/s]
     double arrival_timeout = 3.0;      ///< after the trajectory's end, then it counts as missed [s]
-    double plan_timeout = 2.0;         ///< an unanswered goal fails after [s]
+    double plan_timeout = 2.0;         ///< an unanswered goal fails after, at rest [s]
     double estimate_timeout = 0.10;    ///< [s]
     double estimate_sigma_max = 0.30;  ///< of the position, any axis [m]
     double heading_sigma_to_arm = 0.02;    ///< better known before take-off [rad]
@@ -86,8 +95,10 @@ class FlightDirector {
   /// Sigmas are those of the worst axis of the position [m] and of the heading [rad].
   void set_estimate(Time time, const RigidBodyState& state, double position_sigma,
                     double heading_sigma);
-  void set_range_down(double range) { range_down_ = range; }
-  void set_battery(double percentage) { battery_percentage_ = percentage; }
+  /// What is no number is ignored. No echo is an infinite range.
+  void set_range_down(double range);
+  /// What is no number is a battery that is not measured; it does not keep from flying.
+  void set_battery(double percentage);
   /// That the flight controller is alive, heard at `time`.
   void set_motors_heard(Time time) { motors_heard_ = time; }
 
@@ -104,11 +115,21 @@ class FlightDirector {
   Situation situation(Time now) const;
   std::string not_ready_reason(Time now) const;
   std::string estimate_problem(Time now) const;
+  bool sonar_near_ground() const;
+  bool low() const;
+  bool landed(Time now) const;
+
   void enter(Mode mode, Time now);
-  void follow_mission(Time now);
-  void next_waypoint(Time now);
   FlatReference reference(Time now) const;
-  void rest_or_brake(Time now);
+  FlatReference at_vehicle() const;
+  void stop(const FlatReference& from, Time now);
+  void sink(Time now);
+
+  void follow_mission(Time now);
+  void set_goal(Time now);
+  void take_answer(const PlanAnswer& answer, Time now);
+  std::string plan_problem(const Trajectory& plan, Time now) const;
+  void fail_navigation(const std::string& problem);
 
   Params params_;
   ModeMachine machine_;
@@ -125,13 +146,14 @@ class FlightDirector {
   FlightReference simple_;            // flown where there is no trajectory
   std::optional<Trajectory> active_;  // flown in Indoor Navigation
   std::deque<Trajectory> coming_;     // begin later
-  bool descending_ = false;
+  bool blind_ = false;                // in Land: level, without a reference
 
   std::vector<MissionWaypoint> waypoints_;
-  std::size_t waypoint_ = 0;  // index of the one flown to
-  std::optional<PlanGoal> goal_;
+  std::size_t waypoint_ = 0;           // index of the one flown to
+  std::optional<PlanGoal> goal_;       // none while the vehicle stops first
+  std::deque<PlanAnswer> answers_;     // to that goal, since the last tick
   std::optional<Time> waiting_since_;  // for the planner's answer
-  bool brake_asked_ = false;
+  std::string refusal_;                // of the last plan, where it was refused
   bool mission_done_ = false;
   Situation::Navigation navigation_ = Situation::Navigation::kInactive;
   std::string navigation_problem_;

@@ -28,10 +28,14 @@ FlatReference extrapolate(const FlatReference& reference, double dt);
 
 /// The innermost loop: setpoint, estimate and gyroscope to rotor thrusts.
 ///
-/// Between two estimates the attitude is carried on with the gyroscope, so that the vehicle stays
+/// The attitude is carried on from the last estimate with the gyroscope, so that the vehicle stays
 /// upright for a while when the estimator dies. Nothing stale is flown: without a fresh setpoint
 /// the vehicle keeps level at the thrust of hovering, without a fresh estimate it keeps level and
 /// sinks. Motors that are off stay off.
+///
+/// Fresh is what is stamped within its timeout and was heard within it, on the clock of the steps:
+/// a stamp that runs ahead does not keep a dead sender alive. Stamps far ahead are of another clock
+/// and refused. What is not finite is ignored, as if it had not come.
 class FlightLoop {
  public:
   struct Params {
@@ -60,13 +64,21 @@ class FlightLoop {
   FlightLoop(const Params& params, const QuadrotorModel& model);
 
   void set_estimate(Time time, const RigidBodyState& state);
-  void set_setpoint(const FlightSetpoint& setpoint) { setpoint_ = setpoint; }
+  void set_setpoint(const FlightSetpoint& setpoint);
 
   /// One step at `now`, with the angular velocity that the gyroscope measures [rad/s, body]. One
   /// that is not finite is taken for the last good one.
   Output step(Time now, const Eigen::Vector3d& angular_velocity);
 
  private:
+  /// When something was stamped, and at which step it was there first.
+  struct Freshness {
+    std::optional<Time> stamp;
+    std::optional<Time> heard;  // none: since the last step
+    bool within(double timeout, Time now) const;
+  };
+
+  void carry_attitude(Time now);
   Output level(Behaviour behaviour, double thrust_to_weight) const;
   Output track(Time now, double dt);
 
@@ -74,8 +86,10 @@ class FlightLoop {
   Se3Controller controller_;
   Mixer mixer_;
   FlightSetpoint setpoint_;
-  std::optional<Time> estimate_time_;
-  RigidBodyState state_;  // as estimated last, its attitude carried on
+  Freshness setpoint_freshness_;
+  Freshness estimate_freshness_;
+  RigidBodyState state_;               // as estimated last, its attitude carried on
+  std::optional<Time> attitude_time_;  // that to which it was carried on
   std::optional<Time> last_step_;
   PositionIntegral integral_;
 };

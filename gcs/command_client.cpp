@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr Duration kTick = 10ms;
 constexpr Duration kResend = 200ms;
 /// From the start of the program to its end it may take two seconds.
-constexpr Duration kTimeout = 1800ms;
+constexpr Duration kTimeout = 1500ms;
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -20,6 +21,13 @@ namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
 constexpr double kDefaultAltitude = 1.2;  // indoors: 4 ft in seed 004 [m]
 
 using Network = std::shared_ptr<NetworkOptions>;
+
+/// What CLI11 takes for a number can be NaN or infinite.
+std::string finite(const std::string& text) {
+  double number = 0.0;
+  const bool is_finite = CLI::detail::lexical_cast(text, number) && std::isfinite(number);
+  return is_finite ? "" : "'" + text + "' is no finite number of metres";
+}
 
 void send(const NetworkOptions& network, const GroundCommand& ground_command) {
   Host host(network.host_options("gcs"));
@@ -72,7 +80,9 @@ void add_gcs_commands(CLI::App& gcs) {
 
   auto altitude = std::make_shared<double>(kDefaultAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
-  takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")->capture_default_str();
+  takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")
+      ->capture_default_str()
+      ->check(finite);
   network->add_to(*takeoff);
   takeoff->callback([network, altitude] {
     GroundCommand ground_command;
@@ -84,9 +94,9 @@ void add_gcs_commands(CLI::App& gcs) {
 
   auto place = std::make_shared<GroundCommand::Place>();
   CLI::App* go_to = gcs.add_subcommand("goto", "Fly to a place in the map, around obstacles");
-  go_to->add_option("x", place->x, "[m]")->required();
-  go_to->add_option("y", place->y, "[m]")->required();
-  go_to->add_option("z", place->z, "[m]; else at the height that it has");
+  go_to->add_option("x", place->x, "[m]")->required()->check(finite);
+  go_to->add_option("y", place->y, "[m]")->required()->check(finite);
+  go_to->add_option("z", place->z, "[m]; else at the height that it has")->check(finite);
   network->add_to(*go_to);
   go_to->callback([network, place] {
     GroundCommand ground_command;

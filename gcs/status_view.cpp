@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kTimeout = 1800ms;
+constexpr Duration kTimeout = 1500ms;
 /// What is not heard for so long is not true any more.
 constexpr Duration kStale = 1s;
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/bag/bag_info.hpp"
+#include "components/bag/between.hpp"
 #include "components/bag/carmen/carmen_log.hpp"
 #include "components/bag/convert_carmen.hpp"
 
@@ -31,13 +32,13 @@ void print_json(const nlohmann::json& json) {
   fmt::print("{}\n", json.dump(2, ' ', false, replace));
 }
 
-void run_info(const std::string& file, bool json) {
+void run_info(const std::string& file, bool json, bool sizes) {
   const auto reader = mcap::Reader::open(file);
   if (!reader.ok()) fail(kUnusable, reader.error().reason);
   if (json) {
-    print_json(to_json(*reader));
+    print_json(to_json(*reader, sizes));
   } else {
-    fmt::print("{}", describe(*reader));
+    fmt::print("{}", describe(*reader, sizes));
   }
   for (const Error& error : reader->damage()) {
     fmt::print(stderr, "warning: {}\n", printable(error.reason));
@@ -91,8 +92,8 @@ void run_convert_carmen(const ConvertOptions& options) {
 
 /// A command on one recording, with the choice of JSON.
 template <class Run>
-void add_command(CLI::App& parent, const std::string& name, const std::string& description,
-                 Run run) {
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& description,
+                      Run run) {
   struct Options {
     std::string file;
     bool json = false;
@@ -102,6 +103,7 @@ void add_command(CLI::App& parent, const std::string& name, const std::string& d
   command->add_option("file", options->file, "Recording (.mcap)")->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, run] { run(options->file, options->json); });
+  return command;
 }
 
 void add_convert(CLI::App& bag) {
@@ -116,7 +118,7 @@ void add_convert(CLI::App& bag) {
   carmen
       ->add_option("--max-range", options->params.max_range,
                    "Ranges from here on are no return [m]")
-      ->check(CLI::Range(0.1, 1000.0))
+      ->check(between(0.1, 1000.0))
       ->capture_default_str();
   carmen->callback([options] { run_convert_carmen(*options); });
 }
@@ -124,7 +126,10 @@ void add_convert(CLI::App& bag) {
 }  // namespace
 
 void add_bag_commands(CLI::App& bag) {
-  add_command(bag, "info", "What a recording holds", run_info);
+  auto sizes = std::make_shared<bool>(false);
+  add_command(bag, "info", "What a recording holds", [sizes](const std::string& file, bool json) {
+    run_info(file, json, *sizes);
+  })->add_flag("--sizes", *sizes, "Bytes of each topic, too; reads the whole file");
   add_command(bag, "verify", "Check every byte of a recording; exit code 1 if it is damaged",
               run_verify);
   add_convert(bag);

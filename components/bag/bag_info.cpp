@@ -22,11 +22,25 @@ struct TopicInfo {
   std::string schema_encoding;
   std::string message_encoding;
   std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;  // where sizes were asked for
 };
 
+/// Bytes of the messages of each channel that can be read.
+std::map<std::uint16_t, std::uint64_t> sizes_of(const mcap::Reader& reader) {
+  std::map<std::uint16_t, std::uint64_t> sizes;
+  auto cursor = reader.messages();
+  for (;;) {
+    const auto next = cursor.next();
+    if (!next.ok()) continue;  // `verify` says what is damaged
+    if (!*next) return sizes;
+    sizes[(*next)->channel->id] += (*next)->message.data.size;
+  }
+}
+
 /// One entry a channel, by topic name.
-std::vector<TopicInfo> topics_of(const mcap::Reader& reader) {
+std::vector<TopicInfo> topics_of(const mcap::Reader& reader, bool with_sizes) {
   std::vector<TopicInfo> topics;
+  auto sizes = with_sizes ? sizes_of(reader) : std::map<std::uint16_t, std::uint64_t>();
   const auto& counts = reader.statistics().channel_message_counts;
   for (const auto& [id, channel] : reader.channels()) {
     TopicInfo info;
@@ -39,6 +53,7 @@ std::vector<TopicInfo> topics_of(const mcap::Reader& reader) {
     }
     const auto count = counts.find(id);
     info.messages = count != counts.end() ? count->second : 0;
+    info.bytes = sizes[id];
     topics.push_back(std::move(info));
   }
   std::stable_sort(topics.begin(), topics.end(),
@@ -100,7 +115,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string describe(const mcap::Reader& reader) {
+std::string describe(const mcap::Reader& reader, bool sizes) {
   const mcap::Statistics& statistics = reader.statistics();
   const double duration = duration_s(statistics);
   std::string out;
@@ -129,28 +144,33 @@ std::string describe(const mcap::Reader& reader) {
   }
   for (const auto& metadata : reader.metadata()) line("metadata", metadata.name);
 
-  const auto topics = topics_of(reader);
+  const auto topics = topics_of(reader, sizes);
   std::size_t topic_width = 5;
   std::size_t type_width = 4;
   for (const TopicInfo& info : topics) {
     topic_width = std::max(topic_width, info.topic.size());
     type_width = std::max(type_width, info.type.size());
   }
-  const auto row = [&](const auto& topic, const auto& type, const auto& encoding,
-                       const auto& messages, const auto& rate) {
-    out += fmt::format("{:<{}}  {:<{}}  {:<8}  {:>9}  {:>9}\n", topic, topic_width, type,
-                       type_width, encoding, messages, rate);
+  const auto row = [&](const std::string& topic, const std::string& type,
+                       const std::string& encoding, const std::string& messages,
+                       const std::string& rate, const std::string& size) {
+    out += fmt::format("{:<{}}  {:<{}}  {:<8}  {:>9}  {:>9}", topic, topic_width, type, type_width,
+                       encoding, messages, rate);
+    out += sizes ? fmt::format("  {:>11}\n", size) : "\n";
   };
   out += "\n";
-  row("topic", "type", "encoding", "messages", "rate [Hz]");
+  row("topic", "type", "encoding", "messages", "rate [Hz]", "size");
   for (const TopicInfo& info : topics) {
+    // One message, or several at one moment, have no rate.
+    const double rate = rate_hz(info.messages, duration);
     row(printable(info.topic), printable(info.type), printable(info.message_encoding),
-        info.messages, fmt::format("{:.2f}", rate_hz(info.messages, duration)));
+        std::to_string(info.messages), rate > 0.0 ? fmt::format("{:.2f}", rate) : "-",
+        size_text(info.bytes));
   }
   return out;
 }
 
-json to_json(const mcap::Reader& reader) {
+json to_json(const mcap::Reader& reader, bool sizes) {
   const mcap::Statistics& statistics = reader.statistics();
   const double duration = duration_s(statistics);
   json out = {{"file", reader.name()},
@@ -168,13 +188,15 @@ json to_json(const mcap::Reader& reader) {
               {"attachments", json::array()},
               {"metadata", json::array()},
               {"damage", json::array()}};
-  for (const TopicInfo& info : topics_of(reader)) {
-    out["topics"].push_back({{"topic", info.topic},
-                             {"type", info.type},
-                             {"schema_encoding", info.schema_encoding},
-                             {"message_encoding", info.message_encoding},
-                             {"messages", info.messages},
-                             {"rate_hz", rate_hz(info.messages, duration)}});
+  for (const TopicInfo& info : topics_of(reader, sizes)) {
+    json topic = {{"topic", info.topic},
+                  {"type", info.type},
+                  {"schema_encoding", info.schema_encoding},
+                  {"message_encoding", info.message_encoding},
+                  {"messages", info.messages},
+                  {"rate_hz", rate_hz(info.messages, duration)}};
+    if (sizes) topic["size_bytes"] = info.bytes;
+    out["topics"].push_back(std::move(topic));
   }
   for (const auto& attachment : reader.attachments()) {
     out["attachments"].push_back({{"name", attachment.name},

@@ -10,9 +10,10 @@
 
 namespace swiftlet {
 
-/// What is in a recording, for people and for scripts.
-std::string describe(const mcap::Reader& reader);
-nlohmann::json to_json(const mcap::Reader& reader);
+/// What is in a recording, for people and for scripts. With `sizes`, the bytes of each topic before
+/// compression, for which the whole file is read.
+std::string describe(const mcap::Reader& reader, bool sizes = false);
+nlohmann::json to_json(const mcap::Reader& reader, bool sizes = false);
 
 /// What `verify` found, for scripts. `file` names the recording.
 nlohmann::json to_json(const std::string& file, const mcap::Verification& verification);

@@ -41,6 +41,8 @@ Result<std::string> content_hash(const std::filesystem::path& file) {
     if (!next.ok()) return next.error();
     if (!*next) return fmt::format("{:016x}", hash.value());
     const mcap::MessageView& view = **next;
+    // Lengths go before what has one, so that no two recordings look the same in a row.
+    hash.add(view.channel->topic.size());
     hash.add(std::string_view(view.channel->topic));
     hash.add(view.message.log_time);
     hash.add(view.message.data.size);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "components/bag/bag_info.hpp"
+#include "components/bag/between.hpp"
 #include "components/bag/player.hpp"
 #include "components/bag/recorder.hpp"
 #include "components/runtime/command_line.hpp"
@@ -36,6 +38,9 @@ int record(const RecordOptions& options) {
   }
   fmt::print("{}: {} messages of {} topics\n", options.file, recorder.statistics().message_count,
              recorder.statistics().channel_count);
+  for (const std::string& topic : recorder.missing()) {
+    fmt::print(stderr, "warning: nobody published the topic {}\n", topic);
+  }
   return exit_code;
 }
 
@@ -43,23 +48,44 @@ struct PlayOptions {
   std::string file;
   PlayerParams player;
   double start_s = 0.0;
+  double delay_s = 1.0;
   NetworkOptions network;
 };
+
+void check_topics(const mcap::Reader& reader, const std::vector<std::string>& wanted) {
+  std::vector<std::string> known;
+  for (const auto& [id, channel] : reader.channels()) {
+    const bool has_slash = !channel.topic.empty() && channel.topic[0] == '/';
+    known.push_back(channel.topic.substr(has_slash ? 1 : 0));
+  }
+  for (const std::string& topic : wanted) {
+    const std::string name = topic.substr(!topic.empty() && topic[0] == '/' ? 1 : 0);
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_word(name, known);
+    throw ConfigError(
+        printable(fmt::format("{}: has no topic '{}'; {}", reader.name(), topic,
+                              near.empty() ? fmt::format("it has {}", fmt::join(known, ", "))
+                                           : fmt::format("did you mean '{}'?", near))));
+  }
+}
 
 int play(const PlayOptions& options) {
   const auto reader = mcap::Reader::open(options.file);
   if (!reader.ok()) throw ConfigError(reader.error().reason);
-  for (const std::string& topic : options.player.topics) {
-    std::vector<std::string> known;
-    for (const auto& [id, channel] : reader->channels()) known.push_back(channel.topic);
-    if (std::find(known.begin(), known.end(), topic) != known.end()) continue;
-    const std::string near = nearest_word(topic, known);
-    throw ConfigError(fmt::format("{}: has no topic '{}'; {}", options.file, topic,
-                                  near.empty() ? fmt::format("it has {}", fmt::join(known, ", "))
-                                               : fmt::format("did you mean '{}'?", near)));
+  for (const Error& error : reader->damage()) {
+    fmt::print(stderr, "warning: {}\n", printable(error.reason));
   }
+  check_topics(*reader, options.player.topics);
   PlayerParams params = options.player;
   params.start = from_seconds(options.start_s);
+  params.delay = from_seconds(options.delay_s);
+  const mcap::Statistics& statistics = reader->statistics();
+  const Duration length =
+      mcap::to_time(statistics.message_end_time) - mcap::to_time(statistics.message_start_time);
+  if (params.start > length) {
+    throw ConfigError(fmt::format("--start {}: the recording {} is only {:.3f} s long",
+                                  options.start_s, options.file, to_seconds(length)));
+  }
   Host host(options.network.host_options("bag_play"));
   auto& player = host.emplace<Player>("player", *reader, params);
   if (player.channels() == 0) {
@@ -67,7 +93,10 @@ int play(const PlayOptions& options) {
   }
   const int exit_code = host.run();
   fmt::print("played {} messages\n", player.played());
-  return exit_code;
+  if (player.damaged_chunks() == 0) return exit_code;
+  fmt::print(stderr, "error: {}: damaged chunks that were left out: {}; see swiftlet bag verify\n",
+             options.file, player.damaged_chunks());
+  return 1;
 }
 
 }  // namespace
@@ -88,9 +117,15 @@ void add_live_bag_commands(CLI::App& bag) {
   CLI::App* play_verb = bag.add_subcommand("play", "Publish what was recorded");
   play_verb->add_option("file", play_options->file, "MCAP file")->required();
   play_verb->add_option("--rate", play_options->player.rate, "Times faster than recorded")
-      ->check(CLI::PositiveNumber);
+      ->check(between(1e-3, 1e3))
+      ->capture_default_str();
   play_verb->add_option("--start", play_options->start_s, "Skip so many seconds")
-      ->check(CLI::NonNegativeNumber);
+      ->check(between(0.0, 1e9));
+  play_verb
+      ->add_option("--delay", play_options->delay_s,
+                   "Seconds before the first message, for others to find the topics")
+      ->check(between(0.0, 3600.0))
+      ->capture_default_str();
   play_verb->add_option("--topics", play_options->player.topics, "Topics to play; else all");
   play_verb->add_flag("--loop", play_options->player.loop, "Again from the start, until Ctrl-C");
   play_options->network.add_to(*play_verb);

@@ -14,6 +14,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// Samples of a topic that wait while the disk is slow: half a second of the fastest sensor.
+constexpr int kDepth = 512;
+
+/// What a recording calls a topic; nothing where it is not of this vehicle.
+std::optional<std::string> topic_in_file(const std::string& vehicle, const std::string& wire) {
+  std::string topic = topic_of(vehicle, wire);
+  const bool is_own = vehicle.empty() || wire_topic(vehicle, topic) == wire;
+  return is_own ? std::make_optional(std::move(topic)) : std::nullopt;
+}
+
 }  // namespace
 
 Recorder::Recorder(const ComponentContext& context, const RecorderParams& params)
@@ -24,6 +34,9 @@ Recorder::Recorder(const ComponentContext& context, const RecorderParams& params
   Result<mcap::Writer> opened = mcap::Writer::open(params.file, writer);
   if (!opened.ok()) throw ConfigError(opened.error().reason);
   writer_.emplace(std::move(opened).value());
+  for (std::string& topic : params_.topics) {
+    if (topic[0] == '/') topic.erase(0, 1);
+  }
   look_for_topics();
   every(100ms, [this](Time) { look_for_topics(); });
   every(1s, [this](Time) { check(writer_->flush()); });
@@ -33,34 +46,54 @@ Status Recorder::close() {
   return writer_->close();
 }
 
+std::vector<std::string> Recorder::missing() const {
+  std::vector<std::string> missing;
+  for (const std::string& wanted : params_.topics) {
+    const bool found = std::any_of(recorded_.begin(), recorded_.end(),
+                                   [&](const auto& entry) { return entry.second == wanted; });
+    if (!found) missing.push_back(wanted);
+  }
+  return missing;
+}
+
 void Recorder::look_for_topics() {
+  // Of several writers of a topic, the weakest offer is what all of them can keep.
+  std::map<std::string, Endpoint> found;
   for (const Endpoint& endpoint : context().participant->graph().endpoints()) {
     if (!endpoint.is_writer || recorded_.count(endpoint.topic) != 0) continue;
-    const std::string topic = topic_of("", endpoint.topic);
+    QosProfile& qos = found.emplace(endpoint.topic, endpoint).first->second.qos;
+    qos.reliable = qos.reliable && endpoint.qos.reliable;
+    qos.transient_local = qos.transient_local && endpoint.qos.transient_local;
+  }
+  for (const auto& [wire, endpoint] : found) {
+    const auto topic = topic_in_file(context().vehicle, wire);
+    if (!topic) continue;
     const auto& wanted = params_.topics;
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), topic) == wanted.end()) continue;
-    record(endpoint);
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), *topic) != wanted.end()) {
+      record(endpoint, *topic);
+    }
   }
 }
 
-void Recorder::record(const Endpoint& endpoint) {
-  recorded_.insert(endpoint.topic);
+void Recorder::record(const Endpoint& endpoint, const std::string& topic) {
+  recorded_.emplace(endpoint.topic, topic);
   const std::string type = ros_type_name(endpoint.type);
-  std::uint16_t schema_id = 0;
-  if (const auto schema = idl_schema(type); schema.ok()) {
-    const auto id = writer_->add_schema(type, "ros2idl", std::string_view(*schema));
-    if (!id.ok()) return check(id.error());
-    schema_id = *id;
-  } else {
-    log()->warn("{} has the type {}, which this program does not know: recorded without schema",
-                endpoint.topic, type);
+  const auto idl = idl_schema(type);
+  if (!idl.ok()) {
+    log()->warn("{} has the type {}, which this program does not know: recorded without its IDL",
+                topic, type);
   }
-  const auto channel = writer_->add_channel(topic_of("", endpoint.topic), "cdr", schema_id,
+  // MCAP's way to give a type's name alone is a schema without encoding.
+  const auto schema =
+      writer_->add_schema(type, idl.ok() ? "ros2idl" : "",
+                          idl.ok() ? mcap::ByteView(std::string_view(*idl)) : mcap::ByteView());
+  if (!schema.ok()) return check(schema.error());
+  const auto channel = writer_->add_channel(topic, "cdr", *schema,
                                             {{"offered_qos_profiles", qos_metadata(endpoint.qos)}});
   if (!channel.ok()) return check(channel.error());
-  // Ask for no more than is offered, and keep enough for bursts.
+  // Ask for no more than is offered.
   QosProfile qos = endpoint.qos;
-  qos.depth = std::max(qos.depth, 64);
+  qos.depth = std::max(qos.depth, kDepth);
   subscribe_raw(endpoint.topic, endpoint.type, qos,
                 [this, id = *channel](const Cdr& cdr) { write(id, cdr); });
 }

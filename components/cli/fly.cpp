@@ -32,6 +32,15 @@ struct FlyOptions {
   NetworkOptions network;
 };
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    throw ConfigError(fmt::format("--report {}: cannot be made ({}); choose another folder",
+                                  folder.string(), error.message()));
+  }
+}
+
 /// Simulates and flies a scenario, all in one process. Returns the exit code.
 int fly(const FlyOptions& options) {
   Scenario scenario = Scenario::load(options.scenario);
@@ -53,11 +62,15 @@ int fly(const FlyOptions& options) {
   host.emplace<Progress>("progress");
   ParameterOptions::finish(parameters, kHosted);
   // Nothing is written before everything is known to be usable.
-  if (!options.report.empty()) std::filesystem::create_directories(options.report);
+  if (!options.report.empty() && std::filesystem::exists(options.report) &&
+      !std::filesystem::is_directory(options.report)) {
+    throw ConfigError(fmt::format("--report {}: a file is there; choose a folder", options.report));
+  }
   Recorder* recorder = nullptr;
   if (!options.record.empty()) {
     recorder = &host.emplace<Recorder>("recorder", RecorderParams{options.record, {}, true});
   }
+  if (!options.report.empty()) make_folder(options.report);
 
   const auto wall_begin = std::chrono::steady_clock::now();
   const Time begin = host.executor().now();

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   swiftlet::add_run(app);
   swiftlet::add_gcs_commands(*app.add_subcommand("gcs", "Ground station: commands and status"));
   CLI::App* bag = app.add_subcommand("bag", "Recordings in MCAP");
+  bag->require_subcommand(1);
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);

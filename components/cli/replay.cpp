@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "components/bag/bag_info.hpp"
 #include "components/bag/player.hpp"
 #include "components/cli/map_keeper.hpp"
 #include "components/cli/verbs.hpp"
@@ -21,10 +22,28 @@ struct ReplayOptions {
   ParameterOptions parameters;
 };
 
+/// Refuses a place where a map cannot be saved, before the work is done.
+void check_map_file(const std::filesystem::path& file) {
+  if (file.extension() != ".pgm" && file.extension() != ".png") {
+    throw ConfigError(fmt::format(
+        "--map {}: a map is saved as .pgm or .png; end it with one of them", file.string()));
+  }
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) {
+    throw ConfigError(
+        fmt::format("--map {}: there is no folder {}; make it", file.string(), folder.string()));
+  }
+}
+
 /// Runs components in lockstep on recorded inputs.
 int replay(const ReplayOptions& options) {
   const auto reader = mcap::Reader::open(options.file);
   if (!reader.ok()) throw ConfigError(reader.error().reason);
+  if (!options.map.empty()) check_map_file(options.map);
+  // A recording that was cut off is replayed as far as it goes.
+  for (const Error& error : reader->damage()) {
+    fmt::print(stderr, "warning: {}\n", printable(error.reason));
+  }
   Config parameters = options.parameters.load();
   HostOptions host_options;
   host_options.lockstep = true;
@@ -45,6 +64,13 @@ int replay(const ReplayOptions& options) {
   }
   const int exit_code = host.run();
   if (exit_code != 0) return exit_code;
+  if (player.damaged_chunks() > 0) {
+    fmt::print(stderr,
+               "swiftlet: {}: {} chunks are damaged and were left out, so the outcome would be "
+               "wrong; `swiftlet bag verify` says more\n",
+               options.file, player.damaged_chunks());
+    return 1;
+  }
   fmt::print("replayed   {} messages of {} topics\n", player.played(), player.channels());
 
   if (options.map.empty()) return 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <set>
 
 #include "components/cli/verbs.hpp"
 #include "components/runtime/command_line.hpp"
@@ -18,17 +19,27 @@ struct RunOptions {
 };
 
 int run(const RunOptions& options) {
+  std::set<std::string> named;
+  for (const std::string& name : options.components) {
+    if (!named.insert(name).second) {
+      throw ConfigError(
+          fmt::format("'{}' is named twice; one process hosts each component at most once", name));
+    }
+  }
   Config parameters = options.parameters.load();
   Host host(options.network.host_options(fmt::format("{}", fmt::join(options.components, "+"))));
   for (const std::string& name : options.components) {
     // One scenario for all who need one.
-    if (!options.scenario.empty() && (name == "sim" || name == "pilot")) {
+    const bool needs_scenario = name == "sim" || name == "pilot";
+    if (needs_scenario && !options.scenario.empty()) {
       parameters.set(name + ".scenario", options.scenario);
+    } else if (needs_scenario && !parameters.child(name).has("scenario")) {
+      throw ConfigError(fmt::format("'{}' needs a scenario; add --scenario FILE", name));
     }
-    Component& component = host.add(name, parameters.child(name));
-    logger("run")->info("hosting {}", component.name());
+    host.add(name, parameters.child(name));
   }
   ParameterOptions::finish(parameters, options.components);
+  for (const std::string& name : options.components) logger("run")->info("hosting {}", name);
   return host.run();
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/runtime/command_line.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <ifaddrs.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +22,20 @@ void ParameterOptions::add_to(CLI::App& verb) {
 
 Config ParameterOptions::load() const {
   Config config = file_.empty() ? Config() : Config::load(file_);
-  std::vector<std::string> names = config.keys();
+  const auto check_component = [&config](const std::string& name, const std::string& value) {
+    if (ComponentRegistry::instance().find(name) != nullptr) return;
+    std::vector<std::string> known;
+    for (const auto& entry : ComponentRegistry::instance().entries()) known.push_back(entry.name);
+    const std::string near = nearest_word(name, known);
+    const std::string problem =
+        fmt::format("there is no component '{}'; {}", name,
+                    near.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                                 : fmt::format("did you mean '{}'?", near));
+    if (value.empty()) config.fail(name, problem);
+    throw ConfigError(fmt::format("--param {}: {}", value, problem));
+  };
+  // Sections of components that run elsewhere are fine, those of none are not.
+  for (const std::string& name : config.keys()) check_component(name, "");
   for (const std::string& value : values_) {
     const std::size_t equals = value.find('=');
     const std::size_t dot = value.find('.');
@@ -31,17 +46,7 @@ Config ParameterOptions::load() const {
                       value));
     }
     config.set(value.substr(0, equals), value.substr(equals + 1));
-    names.push_back(value.substr(0, dot));
-  }
-  // Sections of components that run elsewhere are fine, those of none are not.
-  std::vector<std::string> known;
-  for (const auto& entry : ComponentRegistry::instance().entries()) known.push_back(entry.name);
-  for (const std::string& name : names) {
-    if (ComponentRegistry::instance().find(name) != nullptr) continue;
-    const std::string near = nearest_word(name, known);
-    config.fail(name, fmt::format("there is no component '{}'; {}", name,
-                                  near.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
-                                               : fmt::format("did you mean '{}'?", near)));
+    check_component(value.substr(0, dot), value);
   }
   return config;
 }
@@ -62,6 +67,27 @@ void NetworkOptions::add_to(CLI::App& verb) {
                   "Addresses of the interfaces to use; else only this machine is reached");
 }
 
+namespace {
+
+/// IPv4 addresses of this host.
+std::vector<std::string> local_addresses() {
+  std::vector<std::string> addresses;
+  ifaddrs* all = nullptr;
+  if (getifaddrs(&all) != 0) return addresses;
+  for (const ifaddrs* entry = all; entry != nullptr; entry = entry->ifa_next) {
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    const auto* address = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
+    char text[INET_ADDRSTRLEN];
+    if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text)) != nullptr) {
+      addresses.emplace_back(text);
+    }
+  }
+  freeifaddrs(all);
+  return addresses;
+}
+
+}  // namespace
+
 HostOptions NetworkOptions::host_options(const std::string& name) const {
   HostOptions options;
   if (!vehicle_.empty()) {
@@ -71,6 +97,15 @@ HostOptions NetworkOptions::host_options(const std::string& name) const {
   options.vehicle = vehicle_;
   options.participant.name = fmt::format("{}.{}", name, getpid());
   options.participant.domain = domain_ >= 0 ? domain_ : domain_from_environment();
+  for (const std::string& wanted : interfaces_) {
+    const std::vector<std::string> addresses = local_addresses();
+    if (std::find(addresses.begin(), addresses.end(), wanted) == addresses.end()) {
+      throw ConfigError(
+          fmt::format("--network {}: no interface of this host has that address; "
+                      "they have {}",
+                      wanted, fmt::join(addresses, ", ")));
+    }
+  }
   if (!interfaces_.empty()) options.participant.interfaces = interfaces_;
   return options;
 }

@@ -48,6 +48,36 @@ std::string describe(Range range) {
   return fmt::format("from {} to {}", range.min, range.max);
 }
 
+constexpr int kMaxDepth = 32;
+
+/// From 1; an empty file has no marks.
+int line_of(const YAML::Node& node) {
+  return node.IsDefined() ? std::max(1, node.Mark().line + 1) : 1;
+}
+
+/// yaml-cpp keeps both of two equal keys and finds one; YAML 1.2 forbids them.
+/// An alias within its own anchor would go on for ever.
+void refuse_double_keys(const YAML::Node& node, const std::string& file, int depth = 0) {
+  if (depth > kMaxDepth) {
+    throw ConfigError(
+        fmt::format("{}:{}: nested more than {} levels deep; is there an alias in its "
+                    "own anchor?",
+                    file, line_of(node), kMaxDepth));
+  }
+  if (node.IsMap()) {
+    std::set<std::string> keys;
+    for (const auto& entry : node) {
+      if (entry.first.IsScalar() && !keys.insert(entry.first.Scalar()).second) {
+        throw ConfigError(fmt::format("{}:{}: '{}' is given twice; keep one", file,
+                                      line_of(entry.first), entry.first.Scalar()));
+      }
+      refuse_double_keys(entry.second, file, depth + 1);
+    }
+  } else if (node.IsSequence()) {
+    for (const YAML::Node& item : node) refuse_double_keys(item, file, depth + 1);
+  }
+}
+
 std::string join_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
@@ -84,6 +114,7 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
     throw ConfigError(
         fmt::format("{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.msg));
   }
+  refuse_double_keys(file->top, name);
   if (file->top.IsNull()) file->top = YAML::Node(YAML::NodeType::Map);
   if (!file->top.IsMap()) {
     throw ConfigError(
@@ -247,14 +278,6 @@ std::vector<Config> Config::list(const std::string& key) const {
 void Config::demand(const std::string& key) const {
   if (!has(key)) fail({}, fmt::format("'{}' is missing; add it", key));
 }
-
-namespace {
-
-int line_of(const YAML::Node& node) {
-  return node.IsDefined() ? node.Mark().line + 1 : 1;
-}
-
-}  // namespace
 
 std::string Config::where(const std::string& key) const {
   const auto by_hand = file_->set_by_hand.find(join_path(path_, key));

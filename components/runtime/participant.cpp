@@ -19,6 +19,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "components/runtime/config.hpp"
 #include "components/runtime/discovery_listener.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/wire_type.hpp"
@@ -51,6 +52,8 @@ void bridge_log() {
 
 /// Number of processes on one machine that find each other without multicast.
 constexpr int kUnicastPeers = 32;
+/// Beyond it the ports of a domain would be above 65535.
+constexpr int kLastDomain = 232;
 constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options) {
@@ -108,15 +111,17 @@ void apply_profile(const EndpointSpec& spec, Qos& qos) {
 }  // namespace
 
 int domain_from_environment() {
-  const char* text = std::getenv("ROS_DOMAIN_ID");
-  if (text == nullptr || *text == '\0') return 0;
-  char* end = nullptr;
-  const long domain = std::strtol(text, &end, 10);
-  if (*end != '\0' || domain < 0 || domain > 232) {
-    throw RuntimeError(fmt::format(
-        "ROS_DOMAIN_ID is '{}'; set it to a whole number from 0 to 232, or unset it", text));
+  const char* variable = std::getenv("ROS_DOMAIN_ID");
+  const std::string text = variable == nullptr ? "" : variable;
+  if (text.empty()) return 0;
+  const bool is_number = text.size() <= 3 && text.find_first_not_of("0123456789") == text.npos;
+  const int domain = is_number ? std::stoi(text) : -1;
+  if (domain < 0 || domain > kLastDomain) {
+    throw ConfigError(
+        fmt::format("ROS_DOMAIN_ID is '{}'; set it to a whole number from 0 to {}, or unset it",
+                    text, kLastDomain));
   }
-  return static_cast<int>(domain);
+  return domain;
 }
 
 /// Everything that Fast DDS gives us for one process, deleted in the reverse order.

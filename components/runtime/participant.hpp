@@ -30,7 +30,7 @@ struct ParticipantOptions {
   bool isolated = false;
 };
 
-/// The domain that ROS_DOMAIN_ID asks for, 0 where it is not set. Throws RuntimeError where it is
+/// The domain that ROS_DOMAIN_ID asks for, 0 where it is not set. Throws ConfigError where it is
 /// not a whole number from 0 to 232.
 int domain_from_environment();
 

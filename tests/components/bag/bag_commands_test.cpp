@@ -97,6 +97,17 @@ TEST_F(BagCommands, InfoPrintsTopicsForPeopleAndScripts) {
   EXPECT_THAT(info["damage"], IsEmpty());
 }
 
+TEST_F(BagCommands, InfoCountsTheBytesOfEachTopicWhenAsked) {
+  std::map<std::string, std::size_t> bytes;
+  for (const auto& sample : mcap::random_samples(3, 500, 0)) {
+    bytes[sample.topic] += sample.data.size();
+  }
+  const json info = json::parse(bag({"info", "--json", "--sizes", file_}).out);
+  for (const json& topic : info["topics"]) EXPECT_EQ(topic["size_bytes"], bytes[topic["topic"]]);
+  EXPECT_THAT(bag({"info", "--sizes", file_}).out, HasSubstr("rate [Hz]         size\n"));
+  EXPECT_FALSE(json::parse(bag({"info", "--json", file_}).out)["topics"][0].contains("size_bytes"));
+}
+
 TEST_F(BagCommands, ACutRecordingIsUsableAndSaysWhatItLost) {
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   const Outcome info = bag({"info", file_});
@@ -135,6 +146,7 @@ TEST_F(BagCommands, VerifyNamesThePlaceOfTheDamage) {
 }
 
 TEST_F(BagCommands, WrongUsageAndUnreadableInputExitWithTwo) {
+  std::ofstream(folder_ / "ok.log") << "ODOM 0 0 0 0 0 0 1 h 1\n";
   std::ofstream(folder_ / "text.txt") << "hello\n";
   const std::vector<std::vector<std::string>> commands = {
       {"info"},
@@ -150,14 +162,14 @@ TEST_F(BagCommands, WrongUsageAndUnreadableInputExitWithTwo) {
       {"convert", "carmen", folder_ / "text.txt", "-o", folder_ / "out.mcap"},
       {"convert", "carmen", file_, "-o", folder_ / "out.mcap"},
       {"convert", "carmen", folder_ / "text.txt", "-o", folder_ / "text.txt"},
-      {"convert", "carmen", folder_ / "text.txt", "-o", folder_ / "out.mcap", "--max-range", "nan"},
+      {"convert", "carmen", folder_ / "ok.log", "-o", folder_ / "out.mcap", "--max-range", "nan"},
   };
   for (const auto& command : commands) {
     const Outcome outcome = bag(command);
     EXPECT_EQ(outcome.exit_code, 2) << command.back();
     EXPECT_THAT(outcome.err, testing::Not(IsEmpty())) << command.back();
   }
-  EXPECT_THAT(files(), testing::ElementsAre("f.mcap", "text.txt"));
+  EXPECT_THAT(files(), testing::ElementsAre("f.mcap", "ok.log", "text.txt"));
 }
 
 TEST_F(BagCommands, ABadLogLeavesNothingHalfWritten) {

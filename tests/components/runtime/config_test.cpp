@@ -122,6 +122,11 @@ TEST(Config, FilesThatAreMissingOrMalformedAreNamed) {
               AllOf(HasSubstr("f.yaml:2"), HasSubstr("not valid YAML")));
   EXPECT_THAT(error_of([] { Config::parse("- 1\n- 2\n", "f.yaml"); }), HasSubstr("a list"));
   EXPECT_TRUE(Config::parse("", "f.yaml").empty());
+  EXPECT_THAT(error_of([] { Config::parse("", "f.yaml").demand("a"); }), HasSubstr("f.yaml:1:"));
+  EXPECT_THAT(error_of([] { Config::parse("a: 1\nm: {b: 2, b: 3}\n", "f.yaml"); }),
+              AllOf(HasSubstr("f.yaml:2"), HasSubstr("'b' is given twice")));
+  EXPECT_THAT(error_of([] { Config::parse("a: &x [*x]\n", "f.yaml"); }),
+              AllOf(HasSubstr("f.yaml:1"), HasSubstr("nested")));
 }
 
 TEST(Config, ValuesSetByHandWinOverTheFile) {

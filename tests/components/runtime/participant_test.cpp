@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "all_messages.hpp"
+#include "components/runtime/config.hpp"
 
 namespace swiftlet {
 namespace {
@@ -134,9 +135,9 @@ TEST(Domain, ComesFromTheEnvironmentAndIsChecked) {
   const std::string kept = before == nullptr ? "" : before;
   setenv("ROS_DOMAIN_ID", "42", 1);
   EXPECT_EQ(domain_from_environment(), 42);
-  for (const char* bad : {"233", "-1", "x", "4 2"}) {
+  for (const char* bad : {"233", "-1", "x", "4 2", " 5", "+5", "99999999999"}) {
     setenv("ROS_DOMAIN_ID", bad, 1);
-    EXPECT_THROW(domain_from_environment(), RuntimeError) << bad;
+    EXPECT_THROW(domain_from_environment(), ConfigError) << bad;
   }
   setenv("ROS_DOMAIN_ID", kept.c_str(), 1);
 }

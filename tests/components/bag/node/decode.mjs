@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// node decode.mjs FILE.mcap: reads a recording with the libraries of Foxglove, by its index and
-// from the front, and prints header, channels and decoded messages as JSON. 64-bit numbers, NaN and
-// infinities become text.
+// node decode.mjs FILE.mcap [N]: reads a recording with the libraries of Foxglove, by its index and
+// from the front, decodes every message, and prints header, channels and every Nth message of each
+// topic (all without N) as JSON. 64-bit numbers, NaN and infinities become text.
 import { open, readFile } from "node:fs/promises";
 
 import ros2idl from "@foxglove/ros2idl-parser";
@@ -43,7 +43,7 @@ class Decoder {
       this.#readers.set(schema.id, new serialization.MessageReader(definitions));
     }
     const reader = this.#readers.get(schema.id);
-    const value = plain(reader.readMessage(message.data));
+    const value = reader.readMessage(message.data);
     if (reader.lastReadHadTrailingBytes()) {
       throw new Error(`${schema.name}: ${reader.lastReadByteLength()} of ${message.data.length} bytes read`);
     }
@@ -51,7 +51,7 @@ class Decoder {
   }
 }
 
-async function byIndex(path) {
+async function byIndex(path, every) {
   const file = await open(path, "r");
   const readable = {
     size: async () => BigInt((await file.stat()).size),
@@ -66,16 +66,21 @@ async function byIndex(path) {
   if (reader.chunkIndexes.length === 0) throw new Error("no chunk index");
   const decoder = new Decoder();
   const messages = [];
+  const decoded = {};
   for await (const message of reader.readMessages()) {
     const channel = reader.channelsById.get(message.channelId);
     const schema = reader.schemasById.get(channel.schemaId);
+    const value = decoder.decode(schema, message);
+    const count = decoded[channel.topic] ?? 0;
+    decoded[channel.topic] = count + 1;
+    if (count % every !== 0) continue;
     messages.push({
       topic: channel.topic,
       type: schema.name,
       sequence: message.sequence,
       log_time: message.logTime.toString(),
       publish_time: message.publishTime.toString(),
-      value: decoder.decode(schema, message),
+      value: plain(value),
     });
   }
   const attachments = [];
@@ -99,6 +104,7 @@ async function byIndex(path) {
     })),
     attachments,
     metadata,
+    decoded,
     messages,
   };
 }
@@ -116,6 +122,6 @@ async function fromTheFront(path) {
 }
 
 const path = process.argv[2];
-const result = await byIndex(path);
+const result = await byIndex(path, Number(process.argv[3] ?? 1));
 result.messages_from_the_front = await fromTheFront(path);
 console.log(JSON.stringify(result));

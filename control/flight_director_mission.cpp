@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of FlightDirector that flies missions: waypoints to goals, and answers to trajectories.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/flight_director.hpp"
+
+namespace swiftlet {
+namespace {
+
+using Navigation = Situation::Navigation;
+
+/// Farther than anything that is flown to indoors [m].
+constexpr double kFarthestWaypoint = 1e4;
+/// Plans beyond these are not for flying: a vehicle of this kind cannot follow them.
+constexpr double kFastestPlan = 20.0;        // [m/s]
+constexpr double kSharpestPlan = 40.0;       // [m/s^2]
+constexpr double kLargestCoefficient = 1e6;  // [m], [rad]
+/// A plan may begin with a velocity so much off the one that is flown [m/s].
+constexpr double kVelocityGap = 0.3;
+/// A plan from the vehicle's own state is so old when it comes [s].
+constexpr double kPlanDelay = 0.2;
+
+bool moderate(const Trajectory& plan) {
+  for (const TrajectorySegment& segment : plan.segments()) {
+    for (const Polynomial& c : segment.coefficients) {
+      if (c.cwiseAbs().maxCoeff() > kLargestCoefficient) return false;
+    }
+  }
+  return plan.max_speed() <= kFastestPlan && plan.max_acceleration() <= kSharpestPlan;
+}
+
+}  // namespace
+
+Result<Acceptance> FlightDirector::fly(std::uint64_t id,
+                                       const std::vector<MissionWaypoint>& waypoints, Time now) {
+  std::string problem;
+  if (waypoints.empty()) problem = "it has no waypoints";
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const bool usable = waypoints[i].position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
+                        waypoints[i].position.allFinite() &&
+                        std::isfinite(waypoints[i].yaw.value_or(0.0));
+    if (!usable) problem = fmt::format("waypoint {} is not a place that can be flown to", i + 1);
+  }
+  const bool replaced = machine_.mode() == Mode::kIndoorNavigation;
+  Result<Acceptance> result = machine_.request(Request::navigate(id, problem), situation(now));
+  if (!result.ok() || *result != Acceptance::kChanged) return result;
+  last_reason_ = replaced ? "another mission requested" : "mission requested";
+  waypoints_ = waypoints;
+  waypoint_ = 0;
+  mission_done_ = false;
+  enter(Mode::kIndoorNavigation, now);
+  return result;
+}
+
+void FlightDirector::set_plan(const PlanAnswer& answer) {
+  if (goal_ && answer.goal == goal_->identity) answers_.push_back(answer);
+}
+
+void FlightDirector::set_goal(Time now) {
+  goal_ = PlanGoal{now, waypoints_[waypoint_]};
+  answers_.clear();
+  waiting_since_ = now;
+  refusal_.clear();
+}
+
+void FlightDirector::fail_navigation(const std::string& problem) {
+  navigation_ = Navigation::kFailed;
+  navigation_problem_ = problem;
+}
+
+/// Why a plan cannot be flown; "" where it can.
+std::string FlightDirector::plan_problem(const Trajectory& plan, Time now) const {
+  if (!moderate(plan)) return "the last plan was too fast to be flown";
+  const double lead = to_seconds(plan.start() - now);
+  if (lead > params_.plan_timeout) {
+    return fmt::format("the last plan was to begin in {:.1f} s", lead);
+  }
+  // Compared where it takes over from what is flown until then.
+  const Time begin = std::max(plan.start(), now);
+  FlatReference flown = reference(begin);
+  for (const Trajectory& earlier : coming_) {
+    if (earlier.start() < plan.start()) flown = earlier.evaluate(begin);
+  }
+  const FlatReference first = plan.evaluate(begin);
+  const double gap = (first.position - flown.position).norm();
+  const bool continues =
+      gap <= params_.plan_gap && (first.velocity - flown.velocity).norm() <= kVelocityGap;
+  // A vehicle that was carried away from its reference is planned for from where it is.
+  const bool from_vehicle = (first.position - state_.p_WB).norm() <=
+                                params_.plan_gap + kPlanDelay * state_.v_WB_W.norm() &&
+                            (first.velocity - state_.v_WB_W).norm() <= kVelocityGap;
+  if (continues || from_vehicle) return "";
+  return fmt::format("the last plan began {:.2f} m and {:.2f} m/s off what is flown", gap,
+                     (first.velocity - flown.velocity).norm());
+}
+
+void FlightDirector::take_answer(const PlanAnswer& answer, Time now) {
+  if (!answer.brake && answer.trajectory.empty()) {
+    fail_navigation(fmt::format("{} to waypoint {}{}",
+                                answer.failure.empty() ? "no usable plan" : answer.failure,
+                                waypoint_ + 1, answer.reason.empty() ? "" : ": " + answer.reason));
+    return;
+  }
+  if (!answer.brake) refusal_ = plan_problem(answer.trajectory, now);
+  if (answer.brake || !refusal_.empty()) {
+    // The way ahead is not to be flown. At rest already, the wait for a plan just goes on.
+    if (active_ || !coming_.empty()) {
+      stop(reference(now), now);
+      waiting_since_ = simple_.end();
+    }
+    return;
+  }
+  // What was to come after the beginning of this one is outdated.
+  while (!coming_.empty() && coming_.back().start() >= answer.trajectory.start()) {
+    coming_.pop_back();
+  }
+  coming_.push_back(answer.trajectory);
+}
+
+void FlightDirector::follow_mission(Time now) {
+  if (navigation_ != Navigation::kActive) return;
+  if (!goal_ && simple_.finished(now)) set_goal(now);
+  for (; !answers_.empty() && navigation_ == Navigation::kActive; answers_.pop_front()) {
+    take_answer(answers_.front(), now);
+  }
+  while (!coming_.empty() && coming_.front().start() <= now) {
+    active_ = coming_.front();
+    coming_.pop_front();
+    waiting_since_.reset();
+  }
+  if (!goal_ || !coming_.empty() || navigation_ != Navigation::kActive) return;
+  if (waiting_since_) {
+    if (to_seconds(now - *waiting_since_) > params_.plan_timeout) {
+      fail_navigation(fmt::format("no plan to waypoint {} within {:.1f} s; {}", waypoint_ + 1,
+                                  params_.plan_timeout,
+                                  refusal_.empty() ? "is the planner running?" : refusal_));
+    }
+    return;
+  }
+  if (!active_ || now < active_->end()) return;
+  const Eigen::Vector3d to_go = waypoints_[waypoint_].position - state_.p_WB;
+  const bool arrived =
+      to_go.norm() < params_.arrival_distance && state_.v_WB_W.norm() < params_.arrival_speed;
+  if (arrived && waypoint_ + 1 == waypoints_.size()) {
+    navigation_ = Navigation::kFinished;
+    mission_done_ = true;
+  } else if (arrived) {
+    ++waypoint_;
+    set_goal(now);
+  } else if (to_seconds(now - active_->end()) > params_.arrival_timeout) {
+    fail_navigation(fmt::format("waypoint {} was missed by {:.2f} m", waypoint_ + 1, to_go.norm()));
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+#include "swiftlet_msgs.h"
+#include "tests/system/recorded.hpp"
+#include "tests/system/system_test.hpp"
+
+namespace swiftlet::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Flight : public SystemTest {
+ protected:
+  struct Result {
+    Finished finished;
+    json report;
+  };
+
+  /// A flight that is under way. Its recording is <name>.mcap.
+  Process depart(const std::string& scenario, const std::string& name, int seed) {
+    return start({"--log", "warning", "fly", scenario, "--record", path(name + ".mcap"), "--report",
+                  path(name), "--seed", std::to_string(seed)});
+  }
+  Result arrive(Process process, const std::string& name) {
+    const auto finished = process.wait(kFlightLimit);
+    EXPECT_TRUE(finished) << name << " does not end";
+    return {finished.value_or(Finished{-1, process.out(), process.err(), {}}),
+            read_report(folder() / name)};
+  }
+  Result fly(const std::string& scenario, const std::string& name, int seed) {
+    return arrive(depart(scenario, name, seed), name);
+  }
+
+  static void expect_flown(const Result& result) {
+    EXPECT_EQ(result.finished.exit_code, 0) << result.finished.out << result.finished.err;
+    ASSERT_FALSE(result.report.is_null());
+    EXPECT_EQ(result.report["success"], true);
+    EXPECT_EQ(result.report["contacts"], 0);
+    EXPECT_THAT(result.report["bag_hash"].dump(), testing::MatchesRegex("\"[0-9a-f]{16}\""));
+  }
+};
+
+TEST_F(Flight, TheOfficeIsFlownWithinItsGoals) {
+  const Result result = fly(office(), "office", 1);
+  expect_flown(result);
+  EXPECT_GE(result.report["min_clearance_m"].get<double>(), 0.10);
+  EXPECT_LE(result.report["landing_error_m"].get<double>(), 0.10);
+  for (const json& rmse : result.report["position_rmse_m"]) EXPECT_LE(rmse.get<double>(), 0.06);
+  const auto status =
+      last_message<swiftlet_msgs::msg::VehicleStatus>(path("office.mcap"), "vehicle/status");
+  EXPECT_EQ(status.mode(), swiftlet_msgs::msg::VehicleStatus_Constants::GROUNDED);
+  EXPECT_FALSE(status.armed());
+  for (const char* file : {"flight.png", "map.pgm", "map.yaml", "map.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder() / "office" / file)) << file;
+  }
+  EXPECT_EQ(run({"bag", "verify", path("office.mcap")}).exit_code, 0);
+}
+
+TEST_F(Flight, TheSameSeedGivesTheSameMessagesAndAnotherSeedOthers) {
+  // Beside each other, so that the scheduler does not do the same to both.
+  Process first = depart(office(), "first", 7);
+  Process second = depart(office(), "second", 7);
+  const Result a = arrive(std::move(first), "first");
+  const Result b = arrive(std::move(second), "second");
+  const Result other = fly(office(), "other", 8);
+  for (const Result& result : {a, b, other}) expect_flown(result);
+  EXPECT_EQ(a.report["bag_hash"], b.report["bag_hash"]);
+  EXPECT_NE(a.report["bag_hash"], other.report["bag_hash"]);
+  // The hash is of the recording that is there: what it claims, the messages must show.
+  EXPECT_EQ(read_topics(path("first.mcap")), read_topics(path("second.mcap")));
+  EXPECT_NE(read_topics(path("first.mcap")), read_topics(path("other.mcap")));
+}
+
+TEST_F(Flight, TwoBesideEachOtherFlyAsEachDoesAlone) {
+  const Result alone = fly(hop(), "alone", 3);
+  const Result alone_too = fly(hop(), "alone_too", 4);
+  Process first = depart(hop(), "first", 3);
+  Process second = depart(hop(), "second", 4);
+  const Result a = arrive(std::move(first), "first");
+  const Result b = arrive(std::move(second), "second");
+  for (const Result& result : {alone, alone_too, a, b}) expect_flown(result);
+  EXPECT_EQ(alone.report["bag_hash"], a.report["bag_hash"]);
+  EXPECT_EQ(alone_too.report["bag_hash"], b.report["bag_hash"]);
+  EXPECT_NE(alone.report["bag_hash"], alone_too.report["bag_hash"]);
+}
+
+TEST_F(Flight, IsNotDisturbedByALiveVehicleInItsDomain) {
+  const Result alone = fly(hop(), "alone", 3);
+  Process sim = start({"run", "sim", "commander", "--scenario", hop()});
+  ASSERT_TRUE(becomes_true(kStartLimit, [&] {
+    return run({"gcs", "status"}).exit_code == 0;
+  })) << sim.err();
+  const Result beside = fly(hop(), "beside", 3);
+  expect_flown(beside);
+  EXPECT_EQ(alone.report["bag_hash"], beside.report["bag_hash"]);
+  expect_end(sim, SIGTERM, 0);
+}
+
+TEST_F(Flight, BehindAClosedDoorEndsInHoverWithTheReason) {
+  const Result result = fly(closed_door(), "closed", 1);
+  EXPECT_EQ(result.finished.exit_code, 1);
+  ASSERT_FALSE(result.report.is_null()) << result.finished.err;
+  EXPECT_EQ(result.report["success"], false);
+  EXPECT_THAT(result.report["reason"].get<std::string>(), HasSubstr("no path to waypoint 2"));
+  EXPECT_THAT(result.finished.out, HasSubstr("no path to waypoint 2"));
+  EXPECT_EQ(result.report["contacts"], 0);
+  const auto status =
+      last_message<swiftlet_msgs::msg::VehicleStatus>(path("closed.mcap"), "vehicle/status");
+  EXPECT_EQ(status.mode(), swiftlet_msgs::msg::VehicleStatus_Constants::HOVER);
+  EXPECT_EQ(status.waypoint(), 2U);
+  const auto truth = last_message<swiftlet_msgs::msg::SimTruth>(path("closed.mcap"), "sim/truth");
+  EXPECT_EQ(truth.contacts(), 0U);
+  EXPECT_FALSE(truth.on_ground());
+}
+
+TEST_F(Flight, EverySeedCompletesTheOffice) {
+  const int seeds = full_tests() ? 50 : 3;
+  std::vector<std::pair<std::string, Process>> under_way;
+  const auto land_one = [&] {
+    auto [name, process] = std::move(under_way.front());
+    under_way.erase(under_way.begin());
+    const Result result = arrive(std::move(process), name);
+    SCOPED_TRACE(name);
+    expect_flown(result);
+    std::filesystem::remove(path(name + ".mcap"));
+  };
+  for (int seed = 1; seed <= seeds; ++seed) {
+    if (under_way.size() == 2) land_one();
+    const std::string name = "seed_" + std::to_string(seed);
+    under_way.emplace_back(name, depart(office(), name, seed));
+  }
+  while (!under_way.empty()) land_one();
+}
+
+}  // namespace
+}  // namespace swiftlet::test
