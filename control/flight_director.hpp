@@ -32,8 +32,8 @@ struct PlanAnswer {
 
 /// Where the planner shall lead.
 struct PlanGoal {
-  Time identity{};  ///< when it was set; a new goal has a new one
-  MissionWaypoint waypoint;
+  Time identity{};           ///< when it was set; a new goal has a new one
+  MissionWaypoint waypoint;  ///< with the yaw to arrive with
 };
 
 /// Turns requests, missions and plans into one setpoint a tick: the mode machine decides what is

@@ -63,6 +63,7 @@ void FlightDirector::set_plan(const PlanAnswer& answer) {
 
 void FlightDirector::set_goal(Time now) {
   goal_ = PlanGoal{now, waypoints_[waypoint_]};
+  if (!goal_->waypoint.yaw) goal_->waypoint.yaw = reference(now).yaw;
   answers_.clear();
   waiting_since_ = now;
   refusal_.clear();

@@ -186,10 +186,10 @@ std::optional<Error> ModeMachine::objection(const Request& request,
                                             const Situation& situation) const {
   const auto object = [](std::string reason) { return Error{std::move(reason)}; };
   const bool needs_estimate = request.kind != Kind::kLand && request.kind != Kind::kDisarm;
-  if (request.kind == Kind::kArm && !situation.on_ground) return object("not on the ground");
   if (request.kind == Kind::kArm || request.kind == Kind::kTakeoff) {
     if (!situation.ready) return object(because("not ready", situation.not_ready_reason));
   }
+  if (request.kind == Kind::kArm && !situation.on_ground) return object("not on the ground");
   if (request.kind == Kind::kTakeoff) {
     const double altitude = request.altitude;
     if (!(altitude >= params_.min_altitude && altitude <= params_.max_altitude)) {

@@ -74,6 +74,7 @@ struct ConvertOptions {
   std::string log;
   std::string output;
   carmen::Params params;
+  double laser_height = kUsualLaserHeight;
 };
 
 void run_convert_carmen(const ConvertOptions& options) {
@@ -83,7 +84,7 @@ void run_convert_carmen(const ConvertOptions& options) {
   }
   const auto log = carmen::read_log(options.log, options.params);
   if (!log.ok()) fail(kUnusable, log.error().reason);
-  const auto done = convert_carmen(*log, options.output);
+  const auto done = convert_carmen(*log, options.output, options.laser_height);
   if (!done.ok()) fail(kFailed, done.error().reason);
   fmt::print("{}: {} scans, {} poses ({}), {} lines of other kinds skipped\n", options.output,
              done->scans, done->poses, done->corrected ? "corrected" : "raw odometry",
@@ -119,6 +120,11 @@ void add_convert(CLI::App& bag) {
       ->add_option("--max-range", options->params.max_range,
                    "Ranges from here on are no return [m]")
       ->check(between(0.1, 1000.0))
+      ->capture_default_str();
+  carmen
+      ->add_option("--laser-height", options->laser_height,
+                   "Height of the scanner, which the log does not have [m]")
+      ->check(between(-1000.0, 1000.0))
       ->capture_default_str();
   carmen->callback([options] { run_convert_carmen(*options); });
 }

@@ -51,12 +51,14 @@ sensor_msgs::msg::LaserScan to_message(const carmen::Scan& scan) {
   return message;
 }
 
-nav_msgs::msg::Odometry to_message(Time time, const Pose& laser, const std::string& frame) {
+nav_msgs::msg::Odometry to_message(Time time, const Pose& laser, double height,
+                                   const std::string& frame) {
   nav_msgs::msg::Odometry message;
   fill_header(message.header(), time, frame);
   message.child_frame_id(kLaserFrame);
   message.pose().pose().position().x(laser.x);
   message.pose().pose().position().y(laser.y);
+  message.pose().pose().position().z(height);
   message.pose().pose().orientation().z(std::sin(0.5 * laser.theta));
   message.pose().pose().orientation().w(std::cos(0.5 * laser.theta));
   return message;
@@ -122,7 +124,8 @@ class Topic {
   std::uint32_t count_ = 0;
 };
 
-Status write_all(const carmen::Log& log, mcap::Writer& writer, Conversion& conversion) {
+Status write_all(const carmen::Log& log, double laser_height, mcap::Writer& writer,
+                 Conversion& conversion) {
   Topic<sensor_msgs::msg::LaserScan> scans;
   Topic<nav_msgs::msg::Odometry> poses;
   if (const Status done = scans.open(writer, "scan"); !done.ok()) return done;
@@ -138,14 +141,14 @@ Status write_all(const carmen::Log& log, mcap::Writer& writer, Conversion& conve
     Status done;
     if (event.odometry != nullptr) {
       const Pose laser = compose(event.odometry->pose, log.laser_on_robot);
-      auto message = to_message(event.time, laser, frame);
+      auto message = to_message(event.time, laser, laser_height, frame);
       message.twist().twist().linear().x(event.odometry->forward_speed);
       message.twist().twist().angular().z(event.odometry->yaw_rate);
       done = poses.write(writer, event.time, message);
     } else {
       if (event.scan->has_pose) {
-        done =
-            poses.write(writer, event.time, to_message(event.time, event.scan->laser_pose, frame));
+        done = poses.write(writer, event.time,
+                           to_message(event.time, event.scan->laser_pose, laser_height, frame));
       }
       if (done.ok()) done = scans.write(writer, event.time, to_message(*event.scan));
     }
@@ -158,7 +161,8 @@ Status write_all(const carmen::Log& log, mcap::Writer& writer, Conversion& conve
 
 }  // namespace
 
-Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem::path& output) {
+Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem::path& output,
+                                  double laser_height) {
   std::filesystem::path partial = output;
   partial += ".partial";
   mcap::WriterParams params;
@@ -171,7 +175,7 @@ Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem:
   Conversion conversion;
   conversion.corrected = log.corrected;
   for (const auto& [keyword, count] : log.skipped) conversion.skipped_lines += count;
-  Status done = write_all(log, *writer, conversion);
+  Status done = write_all(log, laser_height, *writer, conversion);
   std::error_code error;
   if (done.ok()) {
     std::filesystem::rename(partial, output, error);

@@ -10,6 +10,9 @@
 
 namespace swiftlet {
 
+/// Of the scanners on the robots that CARMEN ran on [m].
+inline constexpr double kUsualLaserHeight = 0.4;
+
 struct Conversion {
   std::size_t scans = 0;
   std::size_t poses = 0;
@@ -25,6 +28,9 @@ struct Conversion {
 ///   `map`; else the ODOM lines between the scans are there too, in frame `odom`.
 ///
 /// `output` appears, or is replaced, only when all went well.
-Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem::path& output);
+/// CARMEN logs are flat. `laser_height` [m] is the z of the poses, so that who maps with them can
+/// tell obstacles from the floor.
+Result<Conversion> convert_carmen(const carmen::Log& log, const std::filesystem::path& output,
+                                  double laser_height = kUsualLaserHeight);
 
 }  // namespace swiftlet

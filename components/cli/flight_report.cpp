@@ -21,7 +21,6 @@ double landing_error(const FlightReport& report) {
 }
 
 std::string reason(const FlightReport& report) {
-  if (!report.outcome.finished) return "interrupted";
   if (report.record.contacts > 0) {
     return fmt::format("touched '{}'; {}", report.record.last_contact, report.outcome.reason);
   }

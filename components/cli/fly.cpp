@@ -80,6 +80,9 @@ int fly(const FlyOptions& options) {
   FlightReport report;
   report.scenario = scenario;
   report.outcome = pilot.outcome();
+  if (!report.outcome.finished) {
+    report.outcome.reason = exit_code == 0 ? "interrupted" : "ended by the error above";
+  }
   report.record = referee.record();
   report.map = map.latest();
   report.speed_factor = to_seconds(host.executor().now() - begin) / wall.count();

@@ -9,6 +9,7 @@
 #include "components/planner/trajectory_message.hpp"
 #include "components/topics.hpp"
 #include "control/flight_director.hpp"
+#include "estimation/geometry/so3.hpp"
 
 namespace swiftlet {
 namespace {
@@ -175,7 +176,7 @@ class Commander : public Component {
     last_goal_ = goal.identity;
     geometry_msgs::msg::PoseStamped message;
     message.header(make_header(goal.identity, frame::kMap));
-    message.pose(to_pose(goal.waypoint.position, Eigen::Quaterniond::Identity()));
+    message.pose(to_pose(goal.waypoint.position, from_yaw(goal.waypoint.yaw.value_or(0.0))));
     goal_.publish(message);
   }
 

@@ -36,7 +36,8 @@ OccupancyGrid from_msg(const nav_msgs::msg::OccupancyGrid& message, OccupancyGri
   params.resolution = std::round(static_cast<double>(message.info().resolution()) * 1e6) / 1e6;
   const std::size_t cells =
       static_cast<std::size_t>(message.info().width()) * message.info().height();
-  const bool turned = std::abs(message.info().origin().orientation().z()) > 1e-6;
+  const Eigen::Quaterniond turn = from_msg(message.info().origin().orientation());
+  const bool turned = !(turn.vec().cwiseAbs().maxCoeff() <= 1e-6);  // not finite is turned, too
   if (turned || !(params.resolution > 0.0) || message.data().size() != cells) {
     return OccupancyGrid(params);
   }

@@ -104,6 +104,13 @@ class LidarMapper : public Component {
       log()->warn("scan refused: {}", inserted.error().reason);
       return;
     }
+    const bool all_outside = inserted->returns == 0 && inserted->clearing == 0;
+    if (all_outside && !std::exchange(warned_of_height_, true)) {
+      log()->warn(
+          "a scan at {:.2f} m is wholly outside of the heights that are mapped ({:.2f} to {:.2f} "
+          "m); see the parameters min_height and max_height",
+          pose->position.z() + p_BL.z(), params_.grid.min_height, params_.grid.max_height);
+    }
     changed_ = true;
   }
 
@@ -113,6 +120,7 @@ class LidarMapper : public Component {
   std::string odometry_frame_;
   std::deque<sensor_msgs::msg::LaserScan> waiting_;
   bool changed_ = false;
+  bool warned_of_height_ = false;
   Publisher<nav_msgs::msg::OccupancyGrid> map_;
 };
 

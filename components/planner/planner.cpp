@@ -7,6 +7,7 @@
 #include "components/planner/trajectory_message.hpp"
 #include "components/runtime/staleness.hpp"
 #include "components/topics.hpp"
+#include "estimation/geometry/so3.hpp"
 #include "planner/path/replanner.hpp"
 
 namespace swiftlet {
@@ -16,8 +17,6 @@ using namespace std::chrono_literals;
 
 constexpr Duration kGoalPeriod = 100ms;  // of the commander
 constexpr Duration kTick = 50ms;
-/// A reference that moves slower has come to rest [m/s].
-constexpr double kRestSpeed = 0.01;
 
 namespace answers = swiftlet_msgs::msg::Trajectory_Constants;
 
@@ -44,6 +43,7 @@ const char* phrase(PlanFailure failure) {
 
 Replanner::Params read_params(const Config& config) {
   Replanner::Params params;
+  params.trajectory.yaw = YawPolicy::kGoal;
   PathCost& cost = params.trajectory.path.cost;
   config.read("radius", cost.radius, kPositive);
   config.read("margin", cost.margin, kNotNegative);
@@ -88,11 +88,12 @@ class Planner : public Component {
     if (goal_identity_ == identity) return;
     goal_identity_ = identity;
     goal_.position = from_msg(message.pose().position());
+    goal_.yaw = yaw_of(from_msg(message.pose().orientation()));
     finished_ = false;
     braking_ = false;
     replanner_.reset();
-    // What is flown now, if nothing else: rest at the reference.
-    if (current_.empty() || now() >= current_.end()) current_ = resting_at(reference_, now());
+    // Goals are set when the vehicle rests at its reference.
+    current_ = resting_at(reference_, now());
     plan();
   }
 
@@ -102,9 +103,10 @@ class Planner : public Component {
       current_ = {};
       return;
     }
-    if (!goal_identity_ || finished_ || grid_.empty()) return;
+    if (!goal_identity_ || finished_) return;
     if (braking_) {
-      if (reference_.velocity.norm() > kRestSpeed) return;
+      const bool at_rest = reference_.velocity.isZero(0.0) && reference_.acceleration.isZero(0.0);
+      if (!at_rest) return;
       braking_ = false;
       current_ = resting_at(reference_, now());
     }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace swiftlet {
 namespace {
 
@@ -38,7 +40,12 @@ Component& Host::add(const std::string& name, const Config& parameters) {
                                       ? fmt::format("this program has {}", fmt::join(known, ", "))
                                       : fmt::format("did you mean '{}'?", near)));
   }
-  components_.push_back(entry->make(context(name, parameters)));
+  try {
+    components_.push_back(entry->make(context(name, parameters)));
+  } catch (const std::invalid_argument& error) {
+    // Each value was in its range, but the algorithm cannot work with all of them together.
+    throw ConfigError(fmt::format("{}: the parameters cannot be used: {}", name, error.what()));
+  }
   return *components_.back();
 }
 

@@ -77,6 +77,7 @@ TEST(ConvertCarmen, RawLogsKeepTheOdometryBetweenScansInTheFrameOfTheLaser) {
   EXPECT_NEAR(made.poses[0].pose().pose().position().x(), 0.0, 1e-12);
   EXPECT_NEAR(made.poses[0].pose().pose().position().y(), 0.1, 1e-12);
   EXPECT_NEAR(made.poses[0].pose().pose().orientation().z(), std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(made.poses[0].pose().pose().position().z(), kUsualLaserHeight);
   EXPECT_NEAR(made.poses[0].pose().pose().orientation().w(), std::sqrt(0.5), 1e-12);
   EXPECT_EQ(made.poses[0].twist().twist().linear().x(), 0.4);
   EXPECT_EQ(made.poses[0].twist().twist().angular().z(), 0.3);

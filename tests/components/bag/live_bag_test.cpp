@@ -24,7 +24,7 @@ using testing::HasSubstr;
 constexpr Duration kDeadline = 40s * test::kSlowdown;
 
 const std::vector<ScriptedTopic> kTopics = {{"rt/scan", kScanType, qos::event},
-                                            {"rt/imu0", kImuType, qos::command},
+                                            {"rt/imu0", kImuType, qos::event},
                                             {"rt/large", kMapType, qos::map}};
 
 HostOptions live(int domain, bool isolated) {

@@ -16,7 +16,6 @@ namespace swiftlet {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::Each;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -332,69 +331,6 @@ TEST_F(PlayerTest, TheLastMapFromBeforeTheStartIsPlayedFirst) {
     heard.push_back(sample.data.back());
   }
   EXPECT_THAT(heard, testing::ElementsAre(4, 7, 8, 9));
-}
-
-class ContentHash : public PlayerTest {
- protected:
-  std::string hash(const std::vector<Sample>& samples, std::uint64_t chunk_size = 4000) {
-    written(samples, chunk_size);
-    return content_hash(file_).value();
-  }
-};
-
-TEST_F(ContentHash, DoesNotDependOnHowTheFileIsCut) {
-  const auto samples = blobs(11, 300, 20'000);
-  EXPECT_EQ(hash(samples, 500), hash(samples, 1 << 20));
-  EXPECT_EQ(hash(samples), hash(mcap::by_time(samples)));
-}
-
-TEST_F(ContentHash, ChangesWithEverythingThatARunDoes) {
-  const auto samples = blobs(12, 100, 0);
-  const std::string before = hash(samples);
-  const auto changed = [&](const auto& change) {
-    auto other = samples;
-    change(other);
-    return hash(other);
-  };
-  EXPECT_EQ(changed([](auto&) {}), before);
-  const std::vector<std::string> hashes = {
-      before,
-      changed([](auto& s) { s[40].data.back() ^= 1; }),
-      changed([](auto& s) { s[40].data.push_back(0); }),
-      changed([](auto& s) { s[40].log_time += 1; }),
-      changed([](auto& s) { s[40].topic = s[40].topic == "a" ? "b" : "a"; }),
-      changed([](auto& s) { s.erase(s.begin() + 40); }),
-      changed([](auto& s) { s.push_back(s.back()); }),
-      changed([](auto& s) {  // two messages of one time change places
-        std::swap(s[40].data, s[41].data);
-        std::swap(s[40].topic, s[41].topic);
-      })};
-  EXPECT_EQ(std::set<std::string>(hashes.begin(), hashes.end()).size(), hashes.size());
-  EXPECT_THAT(hashes, Each(testing::MatchesRegex("[0-9a-f]{16}")));
-}
-
-TEST_F(ContentHash, KnowsWhereOneMessageEndsAndTheNextBegins) {
-  const auto hash_of = [&](const Cdr& first, const std::string& second_topic) {
-    std::filesystem::remove(file_);
-    ForeignFile file(file_);
-    file.add("x", "cdr", "test/msg/Blob", "", first);
-    file.add(second_topic, "cdr", "test/msg/Blob");
-    file.close();
-    return content_hash(file_).value();
-  };
-  EXPECT_NE(hash_of({0, 1, 0, 0}, "ab"), hash_of({0, 1, 0, 0, 'a'}, "b"));
-}
-
-TEST_F(ContentHash, OfADamagedOrMissingFileIsAnError) {
-  EXPECT_FALSE(content_hash(folder_ / "missing.mcap").ok());
-  const auto chunk = written(blobs(13, 300, 0)).chunks()[1];
-  auto bytes = read_bytes(file_);
-  bytes.at(chunk.chunk_start_offset + chunk.chunk_length / 2) ^= 0x40;
-  std::ofstream(file_, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-  const auto damaged = content_hash(file_);
-  ASSERT_FALSE(damaged.ok());
-  EXPECT_THAT(damaged.error().reason, testing::HasSubstr("f.mcap: byte "));
 }
 
 }  // namespace
