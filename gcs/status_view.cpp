@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/conversions.hpp"
-#include "components/mode_names.hpp"
+#include "components/mode_message.hpp"
 #include "estimation/geometry/so3.hpp"
 
 namespace swiftlet {

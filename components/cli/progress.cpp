@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "components/mode_names.hpp"
+#include "components/mode_message.hpp"
 
 namespace swiftlet {
 

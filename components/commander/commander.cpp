@@ -6,6 +6,7 @@
 
 #include "components/commander/mission_message.hpp"
 #include "components/conversions.hpp"
+#include "components/mode_message.hpp"
 #include "components/planner/trajectory_message.hpp"
 #include "components/topics.hpp"
 #include "control/flight_director.hpp"
@@ -53,23 +54,6 @@ std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command
     default:
       return std::nullopt;
   }
-}
-
-std::uint8_t to_msg(Mode mode) {
-  using namespace swiftlet_msgs::msg::VehicleStatus_Constants;
-  switch (mode) {
-    case Mode::kGrounded:
-      return GROUNDED;
-    case Mode::kTakeoff:
-      return TAKEOFF;
-    case Mode::kHover:
-      return HOVER;
-    case Mode::kLand:
-      return LAND;
-    case Mode::kIndoorNavigation:
-      return INDOOR_NAVIGATION;
-  }
-  return GROUNDED;
 }
 
 std::uint8_t to_msg(SetpointKind kind) {

@@ -3,7 +3,6 @@
 //
 // Maps of Nav2, as people have them. Skipped without the data.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,28 +12,13 @@
 
 #include "perception/distance_field.hpp"
 #include "perception/map_io.hpp"
+#include "tests/data_folder.hpp"
+#include "tests/gzip_file.hpp"
 
 namespace swiftlet {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  if (const char* folder = std::getenv("SWIFTLET_DATA")) return folder;
-  return fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
-std::string unzip(const fs::path& file) {
-  std::string content;
-  gzFile in = gzopen(file.c_str(), "rb");
-  if (in == nullptr) return content;
-  std::vector<char> buffer(1 << 16);
-  for (int n; (n = gzread(in, buffer.data(), static_cast<unsigned>(buffer.size()))) > 0;) {
-    content.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-  gzclose(in);
-  return content;
-}
 
 struct PublicMap {
   std::string name;    // of the file, without nav2_
@@ -55,7 +39,7 @@ TEST_P(PublicMaps, LoadsAndKeepsItsWallsAndFloor) {
   fs::create_directories(folder);
   fs::copy(source / ("nav2_" + expected.name + ".yaml"), folder / "map.yaml");
   std::ofstream(folder / (expected.name + ".pgm"), std::ios::binary)
-      << unzip(source / ("nav2_" + expected.name + ".pgm.gz"));
+      << read_gzip(source / ("nav2_" + expected.name + ".pgm.gz"));
   const auto map = load_map(folder / "map.yaml");
   ASSERT_TRUE(map.ok()) << map.error().reason;
   EXPECT_EQ(map->width(), expected.width);

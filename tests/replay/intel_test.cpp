@@ -14,7 +14,7 @@
 #include <map>
 #include <sstream>
 
-#include "tests/components/bag/data_folder.hpp"
+#include "tests/data_folder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 #include "tests/system/system_test.hpp"
 

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/components/bag/data_folder.hpp"
+#include "tests/data_folder.hpp"
 #include "tests/components/bag/mcap_test_files.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 

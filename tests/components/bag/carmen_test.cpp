@@ -10,7 +10,7 @@
 
 #include "components/bag/carmen/carmen_log.hpp"
 #include "components/bag/carmen/line_fields.hpp"
-#include "tests/components/bag/data_folder.hpp"
+#include "tests/data_folder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 
 namespace swiftlet::carmen {

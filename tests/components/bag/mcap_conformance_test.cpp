@@ -10,7 +10,7 @@
 #include "components/bag/mcap/record_stream.hpp"
 #include "components/bag/mcap/verify.hpp"
 #include "components/bag/mcap/writer.hpp"
-#include "tests/components/bag/data_folder.hpp"
+#include "tests/data_folder.hpp"
 
 namespace swiftlet::mcap {
 namespace {

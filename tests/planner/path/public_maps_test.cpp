@@ -4,7 +4,6 @@
 // Maps and optimal lengths of MovingAI (Sturtevant, Benchmarks for Grid-Based Pathfinding, 2012).
 // Skipped without the data.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,35 +12,22 @@
 #include <vector>
 
 #include "planner/path/path_planner.hpp"
+#include "tests/data_folder.hpp"
+#include "tests/gzip_file.hpp"
 
 namespace swiftlet {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string unzip(const fs::path& file) {
-  std::string content;
-  gzFile in = gzopen(file.c_str(), "rb");
-  if (in == nullptr) return content;
-  std::vector<char> buffer(1 << 16);
-  for (int n; (n = gzread(in, buffer.data(), static_cast<unsigned>(buffer.size()))) > 0;) {
-    content.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-  gzclose(in);
-  return content;
-}
-
 class MovingAi : public testing::TestWithParam<const char*> {};
 
 TEST_P(MovingAi, PathsAreAsShortAsThePublishedOptimum) {
-  const char* set = std::getenv("SWIFTLET_DATA");
-  const fs::path data =
-      set != nullptr ? fs::path(set) : fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "data";
-  const fs::path file = data / "planning2d" / "movingai" / GetParam();
+  const fs::path file = data_folder() / "planning2d" / "movingai" / GetParam();
   if (!fs::exists(file.string() + ".map.gz")) {
     GTEST_SKIP() << "no " << file << ".map.gz; set SWIFTLET_DATA to the data folder";
   }
-  std::istringstream map(unzip(file.string() + ".map.gz"));
+  std::istringstream map(read_gzip(file.string() + ".map.gz"));
   std::string word, row;
   int width = 0, height = 0;
   map >> word >> word >> word >> height >> word >> width >> word;
@@ -69,7 +55,7 @@ TEST_P(MovingAi, PathsAreAsShortAsThePublishedOptimum) {
   const auto field = planner.make_map(grid, {0.5, 0.5}, {0.5, 0.5});
   ASSERT_TRUE(field.ok());
 
-  std::istringstream scenarios(unzip(file.string() + ".map.scen.gz"));
+  std::istringstream scenarios(read_gzip(file.string() + ".map.scen.gz"));
   std::getline(scenarios, row);
   int bucket = 0, w = 0, h = 0, x0 = 0, y0 = 0, x1 = 0, y1 = 0, planned = 0, line = 0;
   double optimum = 0.0, sum = 0.0;
