@@ -13,6 +13,7 @@
 #include "components/bag/player.hpp"
 #include "components/bag/recorder.hpp"
 #include "components/runtime/command_line.hpp"
+#include "components/runtime/names.hpp"
 
 namespace swiftlet {
 namespace {
@@ -24,6 +25,11 @@ struct RecordOptions {
 };
 
 int record(const RecordOptions& options) {
+  for (const std::string& topic : options.recorder.topics) {
+    const bool has_slash = !topic.empty() && topic[0] == '/';
+    const Status name = check_name(topic.substr(has_slash ? 1 : 0));
+    if (!name.ok()) throw ConfigError("no topic has such a name: " + name.error().reason);
+  }
   RecorderParams params = options.recorder;
   params.file = options.file;
   Host host(options.network.host_options("bag_record"));
