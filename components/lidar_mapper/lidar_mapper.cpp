@@ -15,6 +15,8 @@ using namespace std::chrono_literals;
 
 /// Scans that wait for their pose; more are a sign that odometry has stopped.
 constexpr std::size_t kMaxWaiting = 20;
+/// A vehicle may stand on the ground, too low to map, for a while.
+constexpr int kOutsideToWarn = 300;
 
 struct Params {
   OccupancyGrid::Params grid;
@@ -105,11 +107,12 @@ class LidarMapper : public Component {
       return;
     }
     const bool all_outside = inserted->returns == 0 && inserted->clearing == 0;
-    if (all_outside && !std::exchange(warned_of_height_, true)) {
+    if (all_outside && grid_.empty() && ++outside_ == kOutsideToWarn) {
       log()->warn(
-          "a scan at {:.2f} m is wholly outside of the heights that are mapped ({:.2f} to {:.2f} "
-          "m); see the parameters min_height and max_height",
-          pose->position.z() + p_BL.z(), params_.grid.min_height, params_.grid.max_height);
+          "{} scans at {:.2f} m are wholly outside of the heights that are mapped ({:.2f} to "
+          "{:.2f} m); see the parameters min_height and max_height",
+          outside_, pose->position.z() + p_BL.z(), params_.grid.min_height,
+          params_.grid.max_height);
     }
     changed_ = true;
   }
@@ -120,7 +123,7 @@ class LidarMapper : public Component {
   std::string odometry_frame_;
   std::deque<sensor_msgs::msg::LaserScan> waiting_;
   bool changed_ = false;
-  bool warned_of_height_ = false;
+  int outside_ = 0;  // scans without a beam inside the height band, before the first with one
   Publisher<nav_msgs::msg::OccupancyGrid> map_;
 };
 
