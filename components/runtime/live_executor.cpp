@@ -46,13 +46,12 @@ class LiveExecutor : public Executor {
   }
 
   int run() override {
-    const SignalGuard signals;
     for (LiveMailbox* mailbox : mailboxes_) mailbox->start();
     int exit_code = 0;
     {
       std::unique_lock<std::mutex> lock(mutex_);
       // A signal handler cannot notify, so look for one now and then.
-      while (!exit_code_ && !signals.received()) {
+      while (!exit_code_ && !signals_.received()) {
         changed_.wait_for(lock, std::chrono::milliseconds(20));
       }
       exit_code = exit_code_.value_or(0);
@@ -144,6 +143,7 @@ class LiveExecutor : public Executor {
     std::thread thread_;
   };
 
+  const SignalGuard signals_;  // from here on, so that a signal before run() ends the run, too
   std::vector<LiveMailbox*> mailboxes_;
   std::mutex mutex_;
   std::condition_variable changed_;

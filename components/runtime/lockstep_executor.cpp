@@ -30,10 +30,9 @@ class LockstepExecutor : public Executor {
   }
 
   int run() override {
-    const SignalGuard signals;
     try {
       while (!finished()) {
-        if (signals.received()) return 0;
+        if (signals_.received()) return 0;
         if (Task* task = next_task()) {
           task->run();
         } else if (!run_next_timer()) {
@@ -86,6 +85,7 @@ class LockstepExecutor : public Executor {
     return true;
   }
 
+  const SignalGuard signals_;  // from here on, so that a signal before run() ends the run, too
   Time now_;
   Timers<Time> timers_;
   std::mutex mutex_;  // of what other threads may touch: the two below
