@@ -20,8 +20,8 @@ ParticipantOptions participant_options(const HostOptions& options) {
 Host::Host(const HostOptions& options)
     : vehicle_(options.vehicle),
       domain_(options.participant.domain),
-      participant_(std::make_shared<Participant>(participant_options(options))),
-      executor_(options.lockstep ? make_lockstep_executor(options.start) : make_live_executor()) {}
+      executor_(options.lockstep ? make_lockstep_executor(options.start) : make_live_executor()),
+      participant_(std::make_shared<Participant>(participant_options(options))) {}
 
 Host::~Host() {
   // Components refer to executor and participant: they go first, the last one first.

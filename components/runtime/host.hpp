@@ -47,8 +47,8 @@ class Host {
 
   std::string vehicle_;
   int domain_;
+  std::unique_ptr<Executor> executor_;  // first: from then on signals are noted
   std::shared_ptr<Participant> participant_;
-  std::unique_ptr<Executor> executor_;
   std::vector<std::unique_ptr<Component>> components_;
 };
 

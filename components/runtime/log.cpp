@@ -5,9 +5,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <mutex>
+
 namespace swiftlet {
 
 Logger logger(const std::string& name) {
+  // Two threads may ask for a new one at the same moment.
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
   static const auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
   if (Logger existing = spdlog::get(name)) return existing;
   auto created = std::make_shared<spdlog::logger>(name, sink);
