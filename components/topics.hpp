@@ -42,6 +42,14 @@ inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", 
 inline constexpr Topic<swiftlet_msgs::msg::Setpoint> setpoint{"setpoint", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::MotorCommand> motors{"motors", qos::command};
 
+// Who is there, and how it is set.
+inline constexpr Topic<swiftlet_msgs::msg::ComponentStatus> component_status{"component/status",
+                                                                             qos::state};
+inline constexpr Topic<swiftlet_msgs::msg::ParameterRequest> parameter_request{"parameter/request",
+                                                                               qos::command};
+inline constexpr Topic<swiftlet_msgs::msg::ParameterReply> parameter_reply{"parameter/reply",
+                                                                           qos::command};
+
 // What only a simulator knows.
 inline constexpr Topic<swiftlet_msgs::msg::SimTruth> sim_truth{"sim/truth", qos::sensor};
 
