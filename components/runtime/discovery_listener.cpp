@@ -15,12 +15,6 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-std::string prefix_of(const rtps::GUID_t& guid) {
-  std::ostringstream text;
-  text << guid.guidPrefix;
-  return text.str();
-}
-
 /// ReaderProxyData and WriterProxyData have the same accessors without a common base.
 template <class ProxyData>
 Endpoint endpoint_of(const ProxyData& data, bool is_writer) {
@@ -43,6 +37,12 @@ Endpoint endpoint_of(const ProxyData& data, bool is_writer) {
 std::string id_of(const rtps::GUID_t& guid) {
   std::ostringstream text;
   text << guid;
+  return text.str();
+}
+
+std::string prefix_of(const rtps::GUID_t& guid) {
+  std::ostringstream text;
+  text << guid.guidPrefix;
   return text.str();
 }
 

@@ -13,6 +13,8 @@ namespace swiftlet {
 
 /// Endpoint::id of a GUID.
 std::string id_of(const eprosima::fastrtps::rtps::GUID_t& guid);
+/// The part of it that all ends of one participant share.
+std::string prefix_of(const eprosima::fastrtps::rtps::GUID_t& guid);
 
 /// Keeps a Graph up to date with what other processes announce.
 class DiscoveryListener : public eprosima::fastdds::dds::DomainParticipantListener {

@@ -108,6 +108,13 @@ void apply_profile(const EndpointSpec& spec, Qos& qos) {
   qos.user_data().setValue({spec.component.begin(), spec.component.end()});
 }
 
+EndpointGuid binary(const rtps::GUID_t& guid) {
+  EndpointGuid bytes;
+  const auto after = std::copy_n(guid.guidPrefix.value, guid.guidPrefix.size, bytes.begin());
+  std::copy_n(guid.entityId.value, guid.entityId.size, after);
+  return bytes;
+}
+
 }  // namespace
 
 int domain_from_environment() {
@@ -142,6 +149,7 @@ class Participant::Impl {
                       "none of the interfaces ({}) up?",
                       options.domain, fmt::join(options.interfaces, ", ")));
     }
+    id_ = prefix_of(participant_->guid());
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   }
@@ -196,6 +204,7 @@ class Participant::Impl {
   }
 
   const Graph& graph() const { return graph_; }
+  const std::string& id() const { return id_; }
 
  private:
   dds::Topic* topic(const EndpointSpec& spec) {
@@ -219,6 +228,7 @@ class Participant::Impl {
   }
 
   ParticipantOptions options_;
+  std::string id_;
   Graph graph_;
   DiscoveryListener listener_;
   std::mutex mutex_;
@@ -299,7 +309,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
     // A sample without data says that a writer is gone; the next may have some.
     while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
-      if (origin != nullptr) origin->writer = id_of(info.sample_identity.writer_guid());
+      if (origin != nullptr) origin->writer = binary(info.sample_identity.writer_guid());
       return true;
     }
     return false;
@@ -334,6 +344,10 @@ std::unique_ptr<Reader> Participant::make_reader(const EndpointSpec& spec,
 
 const Graph& Participant::graph() const {
   return impl_->graph();
+}
+
+const std::string& Participant::id() const {
+  return impl_->id();
 }
 
 }  // namespace swiftlet

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -34,9 +36,12 @@ struct ParticipantOptions {
 /// not a whole number from 0 to 232.
 int domain_from_environment();
 
+/// The DDS GUID of a reader or writer: Endpoint::id, in a form that is cheap to compare.
+using EndpointGuid = std::array<std::uint8_t, 16>;
+
 /// Where one sample came from.
 struct SampleOrigin {
-  std::string writer;  ///< Endpoint::id of the writer
+  EndpointGuid writer{};
 };
 
 /// Sends samples of one topic. Not for use by several threads at once.
@@ -88,6 +93,8 @@ class Participant {
   std::unique_ptr<Reader> make_reader(const EndpointSpec& spec, std::function<void()> on_sample);
 
   const Graph& graph() const;
+  /// Unique in the domain (the prefix of the DDS GUID).
+  const std::string& id() const;
 
  private:
   class Impl;
