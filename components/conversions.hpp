@@ -5,8 +5,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "builtin_interfaces.h"
-#include "estimation/basics/time.hpp"
+#include "components/runtime/stamp.hpp"
 #include "estimation/geometry/rigid_body.hpp"
 #include "geometry_msgs.h"
 #include "nav_msgs.h"
@@ -16,10 +15,6 @@
 
 /// Between the algorithms' values and the messages. Every component converts with these.
 namespace swiftlet {
-
-builtin_interfaces::msg::Time to_msg(Time time);
-Time from_msg(const builtin_interfaces::msg::Time& stamp);
-std_msgs::msg::Header make_header(Time time, const std::string& frame);
 
 geometry_msgs::msg::Point to_point(const Eigen::Vector3d& v);
 geometry_msgs::msg::Vector3 to_vector3(const Eigen::Vector3d& v);

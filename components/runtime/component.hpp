@@ -12,19 +12,15 @@
 
 #include "components/runtime/config.hpp"
 #include "components/runtime/executor.hpp"
+#include "components/runtime/faults.hpp"
+#include "components/runtime/input_watch.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/message.hpp"
 #include "components/runtime/participant.hpp"
 #include "components/runtime/qos.hpp"
+#include "components/runtime/topic.hpp"
 
 namespace swiftlet {
-
-/// A topic: its name, its type and how it is delivered, in one place for all who use it.
-template <class T>
-struct Topic {
-  const char* name;
-  QosProfile qos;
-};
 
 /// Sends messages of one topic.
 template <class T>
@@ -40,14 +36,25 @@ class Publisher {
   std::shared_ptr<Writer> writer_;
 };
 
+class Supervision;
+
 /// What a component is given to live with.
 struct ComponentContext {
-  std::string name;     ///< of the component, "estimator"
-  std::string vehicle;  ///< "" or the prefix of its topics
-  int domain = 0;          ///< DDS domain
+  std::string name;      ///< of the component, "estimator"
+  std::string vehicle;   ///< "" or the prefix of its topics
+  std::string process;   ///< as others see it
+  std::string instance;  ///< of the component: unique in the domain
+  int domain = 0;        ///< DDS domain
   std::shared_ptr<Participant> participant;
   Executor* executor = nullptr;  ///< outlives the component
+  FaultPlan* faults = nullptr;   ///< outlives the component
   Config parameters;             ///< the component's own section
+};
+
+/// Whether a component can do its work without an input.
+enum class Need {
+  kPeriodic,  ///< not, if its topic has a period
+  kOptional,
 };
 
 /// A part of the stack that talks to others only through topics. It declares in its constructor
@@ -58,6 +65,10 @@ struct ComponentContext {
 ///     odometry_ = advertise(topic::odometry);
 ///
 /// Callbacks of one component never run at the same time.
+///
+/// Several instances of a component may run in different processes. All of them hear everything;
+/// only the active one is heard: what the others publish goes nowhere. A component that must take
+/// something over when it becomes active overrides on_activated().
 class Component {
  public:
   explicit Component(const ComponentContext& context);
@@ -67,16 +78,31 @@ class Component {
 
   const std::string& name() const { return context_.name; }
 
+  /// Begins to show that it is alive, and to answer for itself; it publishes from when it is
+  /// active. Called once, after construction.
+  void supervise(int standby, Duration settle);
+  /// From now on it does and says nothing any more, as if its process had been killed.
+  void halt();
+  /// The same at a later time.
+  void halt_at(Time time);
+
  protected:
   template <class T>
   Publisher<T> advertise(const Topic<T>& topic) {
     return Publisher<T>(make_writer(topic.name, message_type<T>(), topic.qos));
   }
 
+  /// Publishes also while another instance is the active one.
+  template <class T>
+  Publisher<T> advertise_always(const char* topic, const QosProfile& qos) {
+    return Publisher<T>(make_ungated_writer(topic, message_type<T>(), qos));
+  }
+
   template <class T, class Callback>
-  void subscribe(const Topic<T>& topic, Callback callback) {
-    add_subscription(std::make_unique<Subscription<T, Callback>>(*mailbox_, std::move(callback)),
-                     topic.name, message_type<T>(), topic.qos);
+  void subscribe(const Topic<T>& topic, Callback callback, Need need = Need::kPeriodic) {
+    add_subscription(std::make_unique<Subscription<T, Callback>>(
+                         *mailbox_, InputWatch(topic.name, topic.period), std::move(callback)),
+                     {topic.name, message_type<T>(), topic.qos, need});
   }
 
   /// The same for bytes, of types that need not be known: topic and type as on the wire.
@@ -95,25 +121,46 @@ class Component {
   /// Ends the whole run.
   void stop(int exit_code) { context_.executor->stop(exit_code); }
 
+  /// Whether this is the instance that is heard.
+  bool active() const { return gate_->active; }
+  /// It takes over from another instance, or begins as the first.
+  virtual void on_activated(Time) {}
+
+  /// How often others learn that it is alive: three times of it pass before another instance takes
+  /// over. Longer than the longest callback. Only in the constructor.
+  void set_alive_period(Duration period) { alive_period_ = period; }
+  /// Parameters that may change while it runs; see ParameterServer. Only in the constructor.
+  void set_live_parameters(std::vector<std::string> names,
+                           std::function<void(const Config& changed)> apply);
+  /// What is wrong with its inputs at this moment.
+  std::vector<std::string> problems(Time now) const;
+
   const Config& parameters() const { return context_.parameters; }
   const ComponentContext& context() const { return context_; }
   Mailbox& mailbox() { return *mailbox_; }
   const Logger& log() const { return log_; }
 
  private:
+  friend class Supervision;
+
   /// Takes one sample from its reader and hands it to the component, each time it runs.
   class SubscriptionTask : public Task {
    public:
     explicit SubscriptionTask(Mailbox& mailbox) : mailbox_(mailbox) {}
-    void listen(Participant& participant, const EndpointSpec& spec);
+    void listen(Participant& participant, const Executor& executor, const EndpointSpec& spec);
     void silence() { reader_.reset(); }
     void run() final;
+    virtual void sample_rate(Time) {}
+    virtual std::string problem(Time) const { return ""; }
 
    protected:
     virtual void dispatch_one(Reader& reader) = 0;
+    Time now() const { return executor_->now(); }
+    int matched_writers() const { return reader_->matched_writers(); }
 
    private:
     Mailbox& mailbox_;
+    const Executor* executor_ = nullptr;
     std::atomic<int> pending_{0};  // runs posted and not begun
     std::unique_ptr<Reader> reader_;
   };
@@ -121,13 +168,19 @@ class Component {
   template <class T, class Callback>
   class Subscription : public SubscriptionTask {
    public:
-    Subscription(Mailbox& mailbox, Callback callback)
-        : SubscriptionTask(mailbox), callback_(std::move(callback)) {}
+    Subscription(Mailbox& mailbox, InputWatch watch, Callback callback)
+        : SubscriptionTask(mailbox), watch_(std::move(watch)), callback_(std::move(callback)) {}
     void dispatch_one(Reader& reader) override {
-      if (reader.take(&message_)) callback_(std::as_const(message_));
+      SampleOrigin origin;
+      if (reader.take(&message_, &origin) && watch_.accept(origin.writer, now())) {
+        callback_(std::as_const(message_));
+      }
     }
+    void sample_rate(Time now) override { watch_.sample_rate(now); }
+    std::string problem(Time now) const override { return watch_.problem(now, matched_writers()); }
 
    private:
+    InputWatch watch_;
     T message_;  // kept, so that strings and sequences keep their memory
     Callback callback_;
   };
@@ -146,16 +199,37 @@ class Component {
     Callback callback_;
   };
 
+  struct Input {
+    const char* topic;
+    const MessageType& type;
+    QosProfile qos;
+    Need need;
+  };
   void listen(std::unique_ptr<SubscriptionTask> subscription, const EndpointSpec& spec);
+  void add_subscription(std::unique_ptr<SubscriptionTask> subscription, const Input& input);
   std::shared_ptr<Writer> make_writer(const char* topic, const MessageType& type,
                                       const QosProfile& qos);
-  void add_subscription(std::unique_ptr<SubscriptionTask> subscription, const char* topic,
-                        const MessageType& type, const QosProfile& qos);
+  std::shared_ptr<Writer> make_ungated_writer(const char* topic, const MessageType& type,
+                                              const QosProfile& qos);
+  std::shared_ptr<Writer> gated(std::shared_ptr<Writer> writer, bool also_while_waiting) const;
+  void set_active(bool active, Time now);
+  void sample_rates(Time now);
 
   ComponentContext context_;
   Logger log_;
+  struct Gate {
+    std::atomic<bool> active{true};
+    std::atomic<bool> halted{false};
+  };
+  class GatedWriter;
+  std::shared_ptr<Gate> gate_;  // shared with the writers
+  Duration alive_period_ = std::chrono::milliseconds(20);
+  std::vector<std::string> live_parameters_;
+  std::function<void(const Config&)> apply_parameters_;
+  std::vector<SubscriptionTask*> needed_;
   std::unique_ptr<Mailbox> mailbox_;
   std::vector<std::unique_ptr<SubscriptionTask>> subscriptions_;
+  std::unique_ptr<Supervision> supervision_;
 };
 
 /// The components that this program can host, by name.

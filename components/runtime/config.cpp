@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -22,6 +21,7 @@ struct Config::File {
   YAML::Node top;
   std::map<std::string, std::set<std::string>> known;  // by path of the mapping
   std::map<std::string, YAML::Node> set_by_hand;       // by path of the value
+  std::vector<ConfigEntry> entries;                    // paths from the top
 };
 
 namespace {
@@ -41,11 +41,28 @@ bool to_number(const YAML::Node& node, double& value) {
 
 std::string describe(Range range) {
   const Range all;
+  if (range.min == all.min && range.max == all.max) return "";
   if (range.min == all.min) return fmt::format("at most {}", range.max);
   if (range.max == all.max) {
     return range.min == kPositive.min ? "positive" : fmt::format("at least {}", range.min);
   }
   return fmt::format("from {} to {}", range.min, range.max);
+}
+
+/// As it stands in a file. Numbers have the shortest form that reads as the same value.
+std::string to_yaml(double value) {
+  return fmt::format("{}", value);
+}
+std::string to_yaml(const std::string& value) {
+  YAML::Emitter text;
+  text << value;
+  return text.c_str();
+}
+template <class Item>
+std::string to_yaml(const std::vector<Item>& values) {
+  std::string text;
+  for (const Item& value : values) text += (text.empty() ? "" : ", ") + to_yaml(value);
+  return "[" + text + "]";
 }
 
 constexpr int kMaxDepth = 32;
@@ -131,6 +148,15 @@ void Config::set(const std::string& path, const std::string& value) {
   }
 }
 
+Config Config::with(const std::string& key, const std::string& value) const {
+  auto file = std::make_shared<File>(*file_);
+  file->known.clear();
+  file->entries.clear();
+  Config copy(file, path_, *node_);
+  copy.set(join_path(path_, key), value);
+  return copy;
+}
+
 bool Config::has(const std::string& key) const {
   return find(key).IsDefined();
 }
@@ -152,12 +178,34 @@ YAML::Node Config::find(const std::string& key) const {
   return node[key];
 }
 
+void Config::note(const std::string& key, const char* type, const std::string& value,
+                  const std::string& limits) const {
+  const std::string path = join_path(path_, key);
+  for (ConfigEntry& entry : file_->entries) {
+    if (entry.path != path) continue;
+    entry = {path, type, value, limits};
+    return;
+  }
+  file_->entries.push_back({path, type, value, limits});
+}
+
+std::vector<ConfigEntry> Config::entries() const {
+  const std::string prefix = path_.empty() ? "" : path_ + ".";
+  std::vector<ConfigEntry> entries;
+  for (const ConfigEntry& entry : file_->entries) {
+    if (entry.path.compare(0, prefix.size(), prefix) != 0) continue;
+    entries.push_back(entry);
+    entries.back().path.erase(0, prefix.size());
+  }
+  return entries;
+}
+
 void Config::read(const std::string& key, bool& value) const {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
-  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
+  if (node.IsDefined() && (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))) {
     fail(key, fmt::format("'{}' must be true or false, not {}", key, kind_of(node)));
   }
+  note(key, "bool", value ? "true" : "false", "");
 }
 
 void Config::read(const std::string& key, int& value, Range range) const {
@@ -167,11 +215,12 @@ void Config::read(const std::string& key, int& value, Range range) const {
     fail(key, fmt::format("'{}' must be a whole number, not {}", key, number));
   }
   value = static_cast<int>(number);
+  note(key, "int", std::to_string(value), describe(range));
 }
 
 void Config::read(const std::string& key, double& value, Range range) const {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return note(key, "double", to_yaml(value), describe(range));
   double number = 0.0;
   if (!to_number(node, number)) {
     fail(key, fmt::format("'{}' must be a number, not {}", key, kind_of(node)));
@@ -183,18 +232,21 @@ void Config::read(const std::string& key, double& value, Range range) const {
     fail(key, fmt::format("'{}' must be {}, not {}", key, describe(range), number));
   }
   value = number;
+  note(key, "double", to_yaml(value), describe(range));
 }
 
 void Config::read(const std::string& key, std::string& value) const {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
-  if (!node.IsScalar()) fail(key, fmt::format("'{}' must be a text, not {}", key, kind_of(node)));
-  value = node.Scalar();
+  if (node.IsDefined()) {
+    if (!node.IsScalar()) fail(key, fmt::format("'{}' must be a text, not {}", key, kind_of(node)));
+    value = node.Scalar();
+  }
+  note(key, "string", to_yaml(value), "");
 }
 
 void Config::read(const std::string& key, std::vector<double>& value, Range range) const {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return note(key, "double[]", to_yaml(value), describe(range));
   if (!node.IsSequence()) {
     fail(key, fmt::format("'{}' must be a list of numbers, not {}", key, kind_of(node)));
   }
@@ -210,11 +262,12 @@ void Config::read(const std::string& key, std::vector<double>& value, Range rang
     numbers.push_back(number);
   }
   value = std::move(numbers);
+  note(key, "double[]", to_yaml(value), describe(range));
 }
 
 void Config::read(const std::string& key, std::vector<std::string>& value) const {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return note(key, "string[]", to_yaml(value), "");
   if (!node.IsSequence()) {
     fail(key, fmt::format("'{}' must be a list of texts, not {}", key, kind_of(node)));
   }
@@ -225,6 +278,7 @@ void Config::read(const std::string& key, std::vector<std::string>& value) const
     texts.push_back(item.Scalar());
   }
   value = std::move(texts);
+  note(key, "string[]", to_yaml(value), "");
 }
 
 namespace {
@@ -339,34 +393,6 @@ void Config::finish() const {
 
 std::filesystem::path Config::folder() const {
   return file_->folder;
-}
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  // Levenshtein distance, one row at a time.
-  const auto distance = [&word](const std::string& other) {
-    std::vector<std::size_t> row(other.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= other.size(); ++j) {
-        const std::size_t substitute = diagonal + (word[i - 1] == other[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-      }
-    }
-    return row.back();
-  };
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(candidate);
-    if (d < best_distance) {
-      best_distance = d;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace swiftlet

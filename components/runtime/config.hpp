@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/nearest_word.hpp"
+
 namespace YAML {
 class Node;
 }
@@ -31,6 +33,14 @@ struct Range {
 inline constexpr Range kPositive{1e-12, std::numeric_limits<double>::max()};
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 
+/// One value that was asked for, as it is now: given in the file or the default.
+struct ConfigEntry {
+  std::string path;    ///< below the mapping that was asked: "model.mass"
+  std::string type;    ///< "bool", "int", "double", "string", "double[]", "string[]"
+  std::string value;   ///< as in YAML
+  std::string limits;  ///< "from 0.05 to 1.39"; "" where there are none
+};
+
 /// One mapping of a YAML file, read key by key:
 ///
 ///     Config file = Config::load("estimator.yaml");
@@ -50,6 +60,9 @@ class Config {
   /// Sets one value by hand, as the command line does; it wins over the file. `path` names the
   /// mappings above the key too: "estimator.gyro_noise".
   void set(const std::string& path, const std::string& value);
+
+  /// A copy in which one value is set, and of which nothing was asked yet.
+  Config with(const std::string& key, const std::string& value) const;
 
   bool has(const std::string& key) const;
   bool empty() const;
@@ -80,6 +93,9 @@ class Config {
   /// Refuses a file without `key`.
   void demand(const std::string& key) const;
 
+  /// Every value that was read from this mapping and those below, in the order of asking.
+  std::vector<ConfigEntry> entries() const;
+
   /// Refuses keys that nobody asked for, in the whole file that this mapping belongs to.
   void finish() const;
 
@@ -94,13 +110,12 @@ class Config {
   struct File;
   Config(std::shared_ptr<File> file, std::string path, const YAML::Node& node);
   YAML::Node find(const std::string& key) const;
+  void note(const std::string& key, const char* type, const std::string& value,
+            const std::string& limits) const;
 
   std::shared_ptr<File> file_;
   std::string path_;  // of this mapping in the file: "" at the top, "sensors.imu0" below
   std::shared_ptr<YAML::Node> node_;
 };
-
-/// The candidate nearest to `word` by edit distance, or "" when none is near enough to be meant.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace swiftlet

@@ -31,6 +31,8 @@ class Mailbox {
   /// Calls `callback` once at `time`, or at once where that has passed. Before the run begins, or
   /// from a callback of this mailbox.
   virtual void call_at(Time time, std::function<void(Time now)> callback) = 0;
+  /// No task and no timer of this mailbox runs any more, once the present one has ended.
+  virtual void halt() = 0;
 };
 
 /// Runs components, in one of two ways that components cannot tell apart.

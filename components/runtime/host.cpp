@@ -6,7 +6,12 @@
 
 #include <stdexcept>
 
+#include "components/runtime/node_announcer.hpp"
+
 namespace swiftlet {
+
+using namespace std::chrono_literals;
+
 namespace {
 
 ParticipantOptions participant_options(const HostOptions& options) {
@@ -15,13 +20,23 @@ ParticipantOptions participant_options(const HostOptions& options) {
   return participant;
 }
 
+/// How long a component listens for others of its name before it is the active one. Nobody else is
+/// there in lockstep; a standby lets the first in line come up.
+Duration settle_time(const HostOptions& options) {
+  if (options.lockstep || options.participant.isolated) return Duration(0);
+  return 500ms + options.standby * 1s;
+}
+
 }  // namespace
 
 Host::Host(const HostOptions& options)
-    : vehicle_(options.vehicle),
-      domain_(options.participant.domain),
+    : options_(options),
       executor_(options.lockstep ? make_lockstep_executor(options.start) : make_live_executor()),
-      participant_(std::make_shared<Participant>(participant_options(options))) {}
+      participant_(std::make_shared<Participant>(participant_options(options))) {
+  faults_ = FaultPlan(options.faults, options.fault_seed, executor_->now());
+  // In lockstep nobody else is there to see.
+  if (!options.lockstep) emplace<NodeAnnouncer>("node_announcer");
+}
 
 Host::~Host() {
   // Components refer to executor and participant: they go first, the last one first.
@@ -46,11 +61,39 @@ Component& Host::add(const std::string& name, const Config& parameters) {
     // Each value was in its range, but the algorithm cannot work with all of them together.
     throw ConfigError(fmt::format("{}: the parameters cannot be used: {}", name, error.what()));
   }
-  return *components_.back();
+  Component& component = *components_.back();
+  component.supervise(options_.standby, settle_time(options_));
+  schedule_end(component);
+  return component;
+}
+
+int Host::run() {
+  std::vector<std::string> names;
+  for (const auto& component : components_) names.push_back(component->name());
+  faults_.finish(names);
+  return executor_->run();
+}
+
+void Host::schedule_end(Component& component) {
+  for (const Fault& fault : faults_.faults()) {
+    if (fault.kind != Fault::Kind::kKill || fault.target != component.name()) continue;
+    component.halt_at(faults_.begin() + fault.begin);
+  }
 }
 
 ComponentContext Host::context(const std::string& name, const Config& parameters) {
-  return {name, vehicle_, domain_, participant_, executor_.get(), parameters};
+  ComponentContext context;
+  context.name = name;
+  context.vehicle = options_.vehicle;
+  // Nothing that differs between two runs gets into the messages of a lockstep run.
+  context.process = options_.lockstep ? "lockstep" : options_.participant.name;
+  context.instance = options_.lockstep ? "lockstep" : participant_->id();
+  context.domain = options_.participant.domain;
+  context.participant = participant_;
+  context.executor = executor_.get();
+  context.faults = &faults_;
+  context.parameters = parameters;
+  return context;
 }
 
 }  // namespace swiftlet

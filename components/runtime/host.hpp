@@ -14,7 +14,10 @@ struct HostOptions {
   ParticipantOptions participant;
   std::string vehicle;  ///< "" or the prefix of all topics
   bool lockstep = false;
-  Time start{};  ///< where the clock of a lockstep run begins
+  Time start{};     ///< where the clock of a lockstep run begins
+  int standby = 0;  ///< place of this process's components in the line of succession
+  std::vector<Fault> faults;
+  std::uint64_t fault_seed = 0;
 };
 
 /// A process that hosts components: one participant, one executor, any number of components.
@@ -32,21 +35,24 @@ class Host {
     auto component = std::make_unique<C>(context(name, {}), std::forward<Args>(args)...);
     C& reference = *component;
     components_.push_back(std::move(component));
+    schedule_end(reference);
     return reference;
   }
 
-  /// Runs until a component stops the run or a signal does; returns the exit code.
-  int run() { return executor_->run(); }
+  /// Runs until a component stops the run or a signal does; returns the exit code. Throws
+  /// ConfigError where a fault has a target that this run does not have.
+  int run();
 
-  int domain() const { return domain_; }
+  int domain() const { return options_.participant.domain; }
   Executor& executor() { return *executor_; }
   const std::shared_ptr<Participant>& participant() { return participant_; }
 
  private:
   ComponentContext context(const std::string& name, const Config& parameters);
+  void schedule_end(Component& component);
 
-  std::string vehicle_;
-  int domain_;
+  HostOptions options_;
+  FaultPlan faults_;
   std::unique_ptr<Executor> executor_;  // first: from then on signals are noted
   std::shared_ptr<Participant> participant_;
   std::vector<std::unique_ptr<Component>> components_;

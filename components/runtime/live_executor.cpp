@@ -89,6 +89,12 @@ class LiveExecutor : public Executor {
       timers_.once(steady + (time - time_at(steady)), std::move(callback));
     }
 
+    void halt() override {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      finished_ = true;
+      changed_.notify_one();
+    }
+
     void start() {
       thread_ = std::thread([this] {
         try {
@@ -101,11 +107,7 @@ class LiveExecutor : public Executor {
     }
 
     void finish() {
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        finished_ = true;
-      }
-      changed_.notify_one();
+      halt();
       if (thread_.joinable()) thread_.join();
     }
 

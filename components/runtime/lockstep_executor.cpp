@@ -52,17 +52,33 @@ class LockstepExecutor : public Executor {
     explicit LockstepMailbox(LockstepExecutor& executor) : executor_(executor) {}
     void post(Task& task) override {
       const std::lock_guard<std::mutex> lock(executor_.mutex_);
-      executor_.tasks_.push_back(&task);
+      if (!*halted_) executor_.tasks_.push_back({&task, halted_});
     }
     void every(Duration period, std::function<void(Time)> callback) override {
-      executor_.timers_.every(executor_.now_ + period, period, std::move(callback));
+      executor_.timers_.every(executor_.now_ + period, period, unless_halted(std::move(callback)));
     }
     void call_at(Time time, std::function<void(Time)> callback) override {
-      executor_.timers_.once(time, std::move(callback));
+      executor_.timers_.once(time, unless_halted(std::move(callback)));
+    }
+    void halt() override {
+      const std::lock_guard<std::mutex> lock(executor_.mutex_);
+      *halted_ = true;
     }
 
    private:
+    std::function<void(Time)> unless_halted(std::function<void(Time)> callback) const {
+      return [halted = halted_, callback = std::move(callback)](Time now) {
+        if (!*halted) callback(now);
+      };
+    }
+
     LockstepExecutor& executor_;
+    std::shared_ptr<bool> halted_ = std::make_shared<bool>(false);
+  };
+
+  struct PostedTask {
+    Task* task;
+    std::shared_ptr<const bool> halted;  // of its mailbox
   };
 
   bool finished() {
@@ -72,10 +88,12 @@ class LockstepExecutor : public Executor {
 
   Task* next_task() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (tasks_.empty()) return nullptr;
-    Task* task = tasks_.front();
-    tasks_.pop_front();
-    return task;
+    while (!tasks_.empty()) {
+      const PostedTask posted = std::move(tasks_.front());
+      tasks_.pop_front();
+      if (!*posted.halted) return posted.task;
+    }
+    return nullptr;
   }
 
   bool run_next_timer() {
@@ -89,7 +107,7 @@ class LockstepExecutor : public Executor {
   Time now_;
   Timers<Time> timers_;
   std::mutex mutex_;  // of what other threads may touch: the two below
-  std::deque<Task*> tasks_;
+  std::deque<PostedTask> tasks_;
   std::optional<int> exit_code_;
 };
 

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "components/runtime/qos.hpp"
+#include "estimation/basics/time.hpp"
+#include "swiftlet_msgs.h"
+
+namespace swiftlet {
+
+/// A topic: its name, its type, how it is delivered, and how often, in one place for all who use
+/// it.
+template <class T>
+struct Topic {
+  const char* name;
+  QosProfile qos;
+  /// The longest time between two messages while all is well. One writer is heard at a time, and
+  /// one that was silent for three periods is as good as dead. Zero: no such time, messages come
+  /// from anybody when there is something to say.
+  Duration period{0};
+};
+
+/// Topics of the runtime itself, which every component has.
+namespace topic {
+
+inline constexpr Topic<swiftlet_msgs::msg::ComponentStatus> component_status{"component/status",
+                                                                             qos::state};
+inline constexpr Topic<swiftlet_msgs::msg::ParameterRequest> parameter_request{"parameter/request",
+                                                                               qos::command};
+inline constexpr Topic<swiftlet_msgs::msg::ParameterReply> parameter_reply{"parameter/reply",
+                                                                           qos::command};
+
+/// Name of the topic on which the instances of one component see each other live: ComponentStatus
+/// without problems, many times a second.
+inline std::string alive_name(const std::string& component) {
+  return "alive/" + component;
+}
+/// How signs of life are delivered: the newest counts.
+inline constexpr QosProfile alive_qos = qos::sensor;
+
+}  // namespace topic
+}  // namespace swiftlet
