@@ -103,7 +103,7 @@ std::string FlightDirector::not_ready_reason(Time now) const {
     return fmt::format("battery at {:.0f} %, {:.0f} % are needed to take off",
                        *battery_percentage_ * 100.0, params_.min_battery_percentage * 100.0);
   }
-  return "";
+  return system_problem_;
 }
 
 Situation FlightDirector::situation(Time now) const {
@@ -113,16 +113,16 @@ Situation FlightDirector::situation(Time now) const {
   situation.ready = situation.not_ready_reason.empty();
   situation.estimate_problem = estimate_problem(now);
   situation.estimate_ok = situation.estimate_problem.empty();
-  situation.height = state_.p_WB.z() - takeoff_point_.z();
+  situation.height = state_.p_WB.z() - flying_.takeoff_point.z();
   if (machine_.armed()) {
     // Furniture below must not look like the ground: the height has to agree while it is known.
     situation.on_ground = sonar_near_ground() && (low() || !situation.estimate_ok);
   } else {
     situation.on_ground = sonar_near_ground() || !range_down_;  // without it, not ready is said
   }
-  situation.reference_finished = simple_.finished(now);
-  situation.navigation = navigation_;
-  situation.navigation_problem = navigation_problem_;
+  situation.reference_finished = now >= flying_.simple.end();
+  situation.navigation = flying_.navigation;
+  situation.navigation_problem = flying_.navigation_problem;
   return situation;
 }
 
@@ -131,13 +131,13 @@ bool FlightDirector::sonar_near_ground() const {
 }
 
 bool FlightDirector::low() const {
-  return state_.p_WB.z() - takeoff_point_.z() < params_.ground_height;
+  return state_.p_WB.z() - flying_.takeoff_point.z() < params_.ground_height;
 }
 
 /// Of three witnesses (resistance, sonar, height) all are heard, or, where sonar and height do not
 /// agree (a table, a higher floor, a sonar without echo), one of them and much more resistance.
 bool FlightDirector::landed(Time now) const {
-  if (blind_ || !estimate_problem(now).empty()) return sonar_near_ground();
+  if (flying_.blind || !estimate_problem(now).empty()) return sonar_near_ground();
   const double resistance = state_.p_WB.z() - reference(now).position.z();
   if (sonar_near_ground() && low()) return resistance >= params_.landing_resistance;
   return (sonar_near_ground() || low()) && resistance >= params_.landing_depth;
@@ -147,8 +147,8 @@ Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
   const Mode before = machine_.mode();
   Result<Acceptance> result = machine_.request(request, situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
-  if (request.kind == Request::Kind::kArm) takeoff_point_ = state_.p_WB;
-  last_reason_ = fmt::format("{} requested", to_string(request.kind));
+  if (request.kind == Request::Kind::kArm) flying_.takeoff_point = state_.p_WB;
+  flying_.last_reason = fmt::format("{} requested", to_string(request.kind));
   if (machine_.mode() != before) enter(machine_.mode(), now);
   return result;
 }
@@ -161,7 +161,7 @@ FlightDirector::Directive FlightDirector::tick(Time now) {
   Directive directive;
   directive.transition = machine_.update(seen);
   if (directive.transition) {
-    last_reason_ = directive.transition->reason;
+    flying_.last_reason = directive.transition->reason;
     enter(directive.transition->to, now);
   }
   if (machine_.mode() == Mode::kLand) sink(now);
@@ -175,12 +175,12 @@ FlightDirector::Directive FlightDirector::tick(Time now) {
     directive.setpoint.kind = SetpointKind::kTrack;
   }
   directive.setpoint.reference = reference(now);
-  if (machine_.mode() == Mode::kIndoorNavigation) directive.goal = goal_;
+  if (machine_.mode() == Mode::kIndoorNavigation) directive.goal = flying_.goal;
   return directive;
 }
 
 FlatReference FlightDirector::reference(Time now) const {
-  return active_ ? active_->evaluate(now) : simple_.at(now);
+  return flying_.active ? flying_.active->evaluate(now) : flying_.simple.evaluate(now);
 }
 
 FlatReference FlightDirector::at_vehicle() const {
@@ -193,19 +193,19 @@ FlatReference FlightDirector::at_vehicle() const {
 
 void FlightDirector::enter(Mode mode, Time now) {
   // After a blind descent nothing is known of where the old reference is.
-  const FlatReference flown = std::exchange(blind_, false) ? at_vehicle() : reference(now);
-  navigation_ = Navigation::kInactive;
-  goal_.reset();
+  const FlatReference flown = std::exchange(flying_.blind, false) ? at_vehicle() : reference(now);
+  flying_.navigation = Navigation::kInactive;
+  flying_.goal.reset();
   answers_.clear();
   switch (mode) {
     case Mode::kTakeoff: {
-      takeoff_point_ = state_.p_WB;
-      Eigen::Vector3d above = takeoff_point_;
+      flying_.takeoff_point = state_.p_WB;
+      Eigen::Vector3d above = flying_.takeoff_point;
       above.z() += machine_.takeoff_altitude();
       stop(at_vehicle(), now);
-      const auto climb =
-          FlightReference::move(now, takeoff_point_, above, yaw_of(state_.q_WB), params_.takeoff);
-      if (climb.ok()) simple_ = *climb;
+      const auto climb = FlightReference::move(now, flying_.takeoff_point, above,
+                                               yaw_of(state_.q_WB), params_.takeoff);
+      if (climb.ok()) flying_.simple = climb->trajectory();
       break;
     }
     case Mode::kGrounded: {
@@ -223,31 +223,31 @@ void FlightDirector::enter(Mode mode, Time now) {
       break;
     case Mode::kIndoorNavigation:
       stop(flown, now);
-      navigation_ = Navigation::kActive;
+      flying_.navigation = Navigation::kActive;
       break;
   }
 }
 
 /// Forgets all plans and brakes to rest.
 void FlightDirector::stop(const FlatReference& from, Time now) {
-  active_.reset();
-  coming_.clear();
+  flying_.active.reset();
+  flying_.coming.clear();
   auto brake = FlightReference::brake(now, from, params_.braking);
   if (!brake.ok()) brake = FlightReference::hold(state_.p_WB, yaw_of(state_.q_WB));
-  if (brake.ok()) simple_ = *brake;
+  if (brake.ok()) flying_.simple = brake->trajectory();
 }
 
 /// Once at rest downwards, and further where the ground does not come.
 void FlightDirector::sink(Time now) {
-  const bool was_blind = std::exchange(blind_, machine_.level_descent());
-  if (blind_) return;
+  const bool was_blind = std::exchange(flying_.blind, machine_.level_descent());
+  if (flying_.blind) return;
   if (was_blind) stop(at_vehicle(), now);
-  if (!simple_.finished(now)) return;
-  const FlatReference rest = simple_.final();
+  if (now < flying_.simple.end()) return;
+  const FlatReference rest = flying_.simple.final_reference();
   Eigen::Vector3d below = rest.position;
-  below.z() = std::min(below.z(), takeoff_point_.z()) - params_.landing_depth;
+  below.z() = std::min(below.z(), flying_.takeoff_point.z()) - params_.landing_depth;
   const auto descent = FlightReference::move(now, rest.position, below, rest.yaw, params_.landing);
-  if (descent.ok()) simple_ = *descent;
+  if (descent.ok()) flying_.simple = descent->trajectory();
 }
 
 FlightDirector::Status FlightDirector::status(Time now) const {
@@ -257,12 +257,23 @@ FlightDirector::Status FlightDirector::status(Time now) const {
   const std::string not_ready = not_ready_reason(now);
   status.ready = not_ready.empty();
   const bool waiting = machine_.mode() == Mode::kGrounded && !machine_.armed();
-  status.reason = waiting && !status.ready ? not_ready : last_reason_;
-  status.height = state_.p_WB.z() - takeoff_point_.z();
-  status.waypoint = waypoints_.empty() ? 0 : waypoint_ + 1;
-  status.waypoint_count = waypoints_.size();
-  status.mission_done = mission_done_;
+  status.reason = waiting && !status.ready ? not_ready : flying_.last_reason;
+  status.height = state_.p_WB.z() - flying_.takeoff_point.z();
+  status.waypoint = flying_.waypoints.empty() ? 0 : flying_.waypoint + 1;
+  status.waypoint_count = flying_.waypoints.size();
+  status.mission_done = flying_.mission_done;
   return status;
+}
+
+FlightDirector::State FlightDirector::state() const {
+  State state = flying_;
+  state.machine = machine_.state();
+  return state;
+}
+
+void FlightDirector::restore(const State& state) {
+  flying_ = state;
+  machine_.restore(state.machine);
 }
 
 }  // namespace swiftlet

@@ -89,6 +89,26 @@ class FlightDirector {
     std::optional<Transition> transition;  ///< what happened in this tick
   };
 
+  /// All that it flies and has decided; what it senses is not in it. Another director that is given
+  /// this goes on where this one was.
+  struct State {
+    ModeMachine::State machine;
+    Eigen::Vector3d takeoff_point = Eigen::Vector3d::Zero();
+    Trajectory simple;                 ///< flown where there is no plan
+    std::optional<Trajectory> active;  ///< plan that is flown in Indoor Navigation
+    std::deque<Trajectory> coming;     ///< plans that begin later
+    bool blind = false;                ///< in Land: level, without a reference
+    std::vector<MissionWaypoint> waypoints;
+    std::size_t waypoint = 0;           ///< index of the one flown to
+    std::optional<PlanGoal> goal;       ///< none while the vehicle stops first
+    std::optional<Time> waiting_since;  ///< for the planner's answer
+    std::string refusal;                ///< of the last plan, where it was refused
+    bool mission_done = false;
+    Situation::Navigation navigation = Situation::Navigation::kInactive;
+    std::string navigation_problem;
+    std::string last_reason;
+  };
+
   /// Throws std::invalid_argument where a parameter cannot be used.
   explicit FlightDirector(const Params& params);
 
@@ -108,8 +128,17 @@ class FlightDirector {
   Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
   void set_plan(const PlanAnswer& answer);
 
+  /// What is wrong elsewhere on board: it keeps from arming. "" where nothing is.
+  void set_system_problem(const std::string& problem) { system_problem_ = problem; }
+  /// Why missions cannot be flown (any longer): those who plan or map fell silent. "" where they
+  /// can.
+  void set_guidance_problem(const std::string& problem) { guidance_problem_ = problem; }
+
   Directive tick(Time now);
   Status status(Time now) const;
+
+  State state() const;
+  void restore(const State& state);
 
  private:
   Situation situation(Time now) const;
@@ -141,23 +170,11 @@ class FlightDirector {
   std::optional<double> range_down_;
   std::optional<double> battery_percentage_;
   std::optional<Time> motors_heard_;
+  std::string system_problem_;
+  std::string guidance_problem_;
 
-  Eigen::Vector3d takeoff_point_ = Eigen::Vector3d::Zero();
-  FlightReference simple_;            // flown where there is no trajectory
-  std::optional<Trajectory> active_;  // flown in Indoor Navigation
-  std::deque<Trajectory> coming_;     // begin later
-  bool blind_ = false;                // in Land: level, without a reference
-
-  std::vector<MissionWaypoint> waypoints_;
-  std::size_t waypoint_ = 0;           // index of the one flown to
-  std::optional<PlanGoal> goal_;       // none while the vehicle stops first
-  std::deque<PlanAnswer> answers_;     // to that goal, since the last tick
-  std::optional<Time> waiting_since_;  // for the planner's answer
-  std::string refusal_;                // of the last plan, where it was refused
-  bool mission_done_ = false;
-  Situation::Navigation navigation_ = Situation::Navigation::kInactive;
-  std::string navigation_problem_;
-  std::string last_reason_;
+  State flying_;
+  std::deque<PlanAnswer> answers_;  // to its goal, since the last tick
 };
 
 }  // namespace swiftlet

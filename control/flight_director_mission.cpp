@@ -40,6 +40,7 @@ Result<Acceptance> FlightDirector::fly(std::uint64_t id,
                                        const std::vector<MissionWaypoint>& waypoints, Time now) {
   std::string problem;
   if (waypoints.empty()) problem = "it has no waypoints";
+  if (!guidance_problem_.empty()) problem = guidance_problem_;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const bool usable = waypoints[i].position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
                         waypoints[i].position.allFinite() &&
@@ -49,29 +50,29 @@ Result<Acceptance> FlightDirector::fly(std::uint64_t id,
   const bool replaced = machine_.mode() == Mode::kIndoorNavigation;
   Result<Acceptance> result = machine_.request(Request::navigate(id, problem), situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
-  last_reason_ = replaced ? "another mission requested" : "mission requested";
-  waypoints_ = waypoints;
-  waypoint_ = 0;
-  mission_done_ = false;
+  flying_.last_reason = replaced ? "another mission requested" : "mission requested";
+  flying_.waypoints = waypoints;
+  flying_.waypoint = 0;
+  flying_.mission_done = false;
   enter(Mode::kIndoorNavigation, now);
   return result;
 }
 
 void FlightDirector::set_plan(const PlanAnswer& answer) {
-  if (goal_ && answer.goal == goal_->identity) answers_.push_back(answer);
+  if (flying_.goal && answer.goal == flying_.goal->identity) answers_.push_back(answer);
 }
 
 void FlightDirector::set_goal(Time now) {
-  goal_ = PlanGoal{now, waypoints_[waypoint_]};
-  if (!goal_->waypoint.yaw) goal_->waypoint.yaw = reference(now).yaw;
+  flying_.goal = PlanGoal{now, flying_.waypoints[flying_.waypoint]};
+  if (!flying_.goal->waypoint.yaw) flying_.goal->waypoint.yaw = reference(now).yaw;
   answers_.clear();
-  waiting_since_ = now;
-  refusal_.clear();
+  flying_.waiting_since = now;
+  flying_.refusal.clear();
 }
 
 void FlightDirector::fail_navigation(const std::string& problem) {
-  navigation_ = Navigation::kFailed;
-  navigation_problem_ = problem;
+  flying_.navigation = Navigation::kFailed;
+  flying_.navigation_problem = problem;
 }
 
 /// Why a plan cannot be flown; "" where it can.
@@ -84,7 +85,7 @@ std::string FlightDirector::plan_problem(const Trajectory& plan, Time now) const
   // Compared where it takes over from what is flown until then.
   const Time begin = std::max(plan.start(), now);
   FlatReference flown = reference(begin);
-  for (const Trajectory& earlier : coming_) {
+  for (const Trajectory& earlier : flying_.coming) {
     if (earlier.start() < plan.start()) flown = earlier.evaluate(begin);
   }
   const FlatReference first = plan.evaluate(begin);
@@ -102,59 +103,61 @@ std::string FlightDirector::plan_problem(const Trajectory& plan, Time now) const
 
 void FlightDirector::take_answer(const PlanAnswer& answer, Time now) {
   if (!answer.brake && answer.trajectory.empty()) {
-    fail_navigation(fmt::format("{} to waypoint {}{}",
-                                answer.failure.empty() ? "no usable plan" : answer.failure,
-                                waypoint_ + 1, answer.reason.empty() ? "" : ": " + answer.reason));
+    fail_navigation(fmt::format(
+        "{} to waypoint {}{}", answer.failure.empty() ? "no usable plan" : answer.failure,
+        flying_.waypoint + 1, answer.reason.empty() ? "" : ": " + answer.reason));
     return;
   }
-  if (!answer.brake) refusal_ = plan_problem(answer.trajectory, now);
-  if (answer.brake || !refusal_.empty()) {
+  if (!answer.brake) flying_.refusal = plan_problem(answer.trajectory, now);
+  if (answer.brake || !flying_.refusal.empty()) {
     // The way ahead is not to be flown. At rest already, the wait for a plan just goes on.
-    if (active_ || !coming_.empty()) {
+    if (flying_.active || !flying_.coming.empty()) {
       stop(reference(now), now);
-      waiting_since_ = simple_.end();
+      flying_.waiting_since = flying_.simple.end();
     }
     return;
   }
   // What was to come after the beginning of this one is outdated.
-  while (!coming_.empty() && coming_.back().start() >= answer.trajectory.start()) {
-    coming_.pop_back();
+  while (!flying_.coming.empty() && flying_.coming.back().start() >= answer.trajectory.start()) {
+    flying_.coming.pop_back();
   }
-  coming_.push_back(answer.trajectory);
+  flying_.coming.push_back(answer.trajectory);
 }
 
 void FlightDirector::follow_mission(Time now) {
-  if (navigation_ != Navigation::kActive) return;
-  if (!goal_ && simple_.finished(now)) set_goal(now);
-  for (; !answers_.empty() && navigation_ == Navigation::kActive; answers_.pop_front()) {
+  if (flying_.navigation != Navigation::kActive) return;
+  if (!guidance_problem_.empty()) return fail_navigation(guidance_problem_);
+  if (!flying_.goal && now >= flying_.simple.end()) set_goal(now);
+  for (; !answers_.empty() && flying_.navigation == Navigation::kActive; answers_.pop_front()) {
     take_answer(answers_.front(), now);
   }
-  while (!coming_.empty() && coming_.front().start() <= now) {
-    active_ = coming_.front();
-    coming_.pop_front();
-    waiting_since_.reset();
+  while (!flying_.coming.empty() && flying_.coming.front().start() <= now) {
+    flying_.active = flying_.coming.front();
+    flying_.coming.pop_front();
+    flying_.waiting_since.reset();
   }
-  if (!goal_ || !coming_.empty() || navigation_ != Navigation::kActive) return;
-  if (waiting_since_) {
-    if (to_seconds(now - *waiting_since_) > params_.plan_timeout) {
-      fail_navigation(fmt::format("no plan to waypoint {} within {:.1f} s; {}", waypoint_ + 1,
-                                  params_.plan_timeout,
-                                  refusal_.empty() ? "is the planner running?" : refusal_));
+  if (!flying_.goal || !flying_.coming.empty() || flying_.navigation != Navigation::kActive) return;
+  if (flying_.waiting_since) {
+    if (to_seconds(now - *flying_.waiting_since) > params_.plan_timeout) {
+      fail_navigation(fmt::format(
+          "no plan to waypoint {} within {:.1f} s; {}", flying_.waypoint + 1, params_.plan_timeout,
+          flying_.refusal.empty() ? "is the planner running?" : flying_.refusal));
     }
     return;
   }
-  if (!active_ || now < active_->end()) return;
-  const Eigen::Vector3d to_go = waypoints_[waypoint_].position - state_.p_WB;
+  if (!flying_.active || now < flying_.active->end()) return;
+  const Eigen::Vector3d to_go = flying_.waypoints[flying_.waypoint].position - state_.p_WB;
   const bool arrived =
       to_go.norm() < params_.arrival_distance && state_.v_WB_W.norm() < params_.arrival_speed;
-  if (arrived && waypoint_ + 1 == waypoints_.size()) {
-    navigation_ = Navigation::kFinished;
-    mission_done_ = true;
+  if (arrived && flying_.waypoint + 1 == flying_.waypoints.size()) {
+    flying_.navigation = Navigation::kFinished;
+    flying_.mission_done = true;
   } else if (arrived) {
-    ++waypoint_;
+    ++flying_.waypoint;
     set_goal(now);
-  } else if (to_seconds(now - active_->end()) > params_.arrival_timeout) {
-    fail_navigation(fmt::format("waypoint {} was missed by {:.2f} m", waypoint_ + 1, to_go.norm()));
+  } else if (to_seconds(now - flying_.active->end()) > params_.arrival_timeout) {
+    fail_navigation(
+        fmt::format("waypoint {} was missed by {:.2f} m", flying_.waypoint + 1, to_go.norm()));
   }
 }
 

@@ -187,7 +187,7 @@ FlatReference FlightReference::evaluate(const Piece& piece, double since_start) 
   // Horner for the polynomial and its first four derivatives at once.
   std::array<Vector4d, 5> d;
   d.fill(Vector4d::Zero());
-  for (int k = kCoefficients - 1; k >= 0; --k) {
+  for (int k = kPowers - 1; k >= 0; --k) {
     for (std::size_t order = 4; order > 0; --order) {
       d[order] = d[order] * s + static_cast<double>(order) * d[order - 1];
     }
@@ -213,6 +213,22 @@ FlatReference FlightReference::at(Time time) const {
   int i = 0;
   while (i + 1 < pieces_ && t >= piece_[static_cast<std::size_t>(i + 1)].begin) ++i;
   return evaluate(piece_[static_cast<std::size_t>(i)], t);
+}
+
+Trajectory FlightReference::trajectory() const {
+  std::vector<TrajectorySegment> segments;
+  for (int i = 0; i < pieces_; ++i) {
+    const Piece& piece = piece_[static_cast<std::size_t>(i)];
+    TrajectorySegment segment;
+    segment.duration_s = piece.duration;
+    for (int axis = 0; axis < 4; ++axis) {
+      segment.coefficients[static_cast<std::size_t>(axis)].head<kPowers>() =
+          piece.coefficients.row(axis).transpose();
+    }
+    if (piece.duration > 0.0) segments.push_back(segment);
+  }
+  if (segments.empty()) return resting_at(at(end_), end_);
+  return Trajectory(start_, std::move(segments));
 }
 
 }  // namespace swiftlet

@@ -8,6 +8,7 @@
 #include "estimation/basics/result.hpp"
 #include "estimation/basics/time.hpp"
 #include "estimation/geometry/rigid_body.hpp"
+#include "planner/trajectory/piecewise_polynomial.hpp"
 
 namespace swiftlet {
 
@@ -53,13 +54,17 @@ class FlightReference {
   bool finished(Time time) const { return time >= end_; }
   FlatReference final() const { return at(end_); }
 
+  /// The same as a trajectory: what the simple modes fly and what the planner gives are then one
+  /// thing.
+  Trajectory trajectory() const;
+
  private:
-  static constexpr int kCoefficients = 7;  // of degree 6 in time: position, yaw
+  static constexpr int kPowers = 7;  // of degree 6 in time: position, yaw
   struct Piece {
     double begin = 0.0;     // since start_ [s]
     double duration = 0.0;  // [s]
-    Eigen::Matrix<double, 4, kCoefficients> coefficients =
-        Eigen::Matrix<double, 4, kCoefficients>::Zero();  // in powers of (t - begin) / duration
+    Eigen::Matrix<double, 4, kPowers> coefficients =
+        Eigen::Matrix<double, 4, kPowers>::Zero();  // in powers of (t - begin) / duration
   };
   FlatReference evaluate(const Piece& piece, double since_start) const;
 

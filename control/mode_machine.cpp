@@ -290,4 +290,13 @@ std::optional<Transition> ModeMachine::update(const Situation& situation) {
   return std::nullopt;
 }
 
+void ModeMachine::restore(const State& state) {
+  mode_ = state.mode;
+  armed_ = state.armed;
+  blind_ = state.blind;
+  takeoff_altitude_ = state.takeoff_altitude;
+  mission_ = state.mission;
+  on_ground_since_.reset();
+}
+
 }  // namespace swiftlet

@@ -122,6 +122,17 @@ class ModeMachine {
   /// At most one transition a tick.
   std::optional<Transition> update(const Situation& situation);
 
+  /// All that it remembers. Whether it stands on the ground it finds out anew.
+  struct State {
+    Mode mode = Mode::kGrounded;
+    bool armed = false;
+    bool blind = false;             ///< Land without an estimate
+    double takeoff_altitude = 0.0;  ///< [m]
+    std::uint64_t mission = 0;
+  };
+  State state() const { return {mode_, armed_, blind_, takeoff_altitude_, mission_}; }
+  void restore(const State& state);
+
   Mode mode() const { return mode_; }
   bool armed() const { return armed_; }
   /// Altitude of the take-off that was accepted last [m].
