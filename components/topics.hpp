@@ -39,9 +39,11 @@ inline constexpr Topic<swiftlet_msgs::msg::Mission> waypoints{"waypoints", qos::
 inline constexpr Topic<swiftlet_msgs::msg::CommandAck> mode_ack{"mode/ack", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::VehicleStatus> vehicle_status{"vehicle/status",
                                                                          qos::state, 100ms};
+inline constexpr Topic<swiftlet_msgs::msg::CommanderState> commander_state{"commander/state",
+                                                                           qos::map};
 inline constexpr Topic<geometry_msgs::msg::PoseStamped> goal{"goal", qos::command};
 inline constexpr Topic<nav_msgs::msg::Path> path{"path", qos::state};
-inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", qos::state};
+inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", qos::map};
 inline constexpr Topic<swiftlet_msgs::msg::Setpoint> setpoint{"setpoint", qos::command, 10ms};
 inline constexpr Topic<swiftlet_msgs::msg::MotorCommand> motors{"motors", qos::command, 4ms};
 

@@ -28,6 +28,7 @@ struct FlyOptions {
   std::string record;
   std::string report;
   std::optional<int> seed;
+  std::vector<std::string> what_if;
   ParameterOptions parameters;
   NetworkOptions network;
 };
@@ -54,6 +55,10 @@ int fly(const FlyOptions& options) {
 
   HostOptions host_options = options.network.host_options("fly");
   host_options.lockstep = !options.real_time;
+  for (const std::string& fault : options.what_if) {
+    host_options.faults.push_back(parse_fault(fault));
+  }
+  host_options.fault_seed = scenario.seed;
   Host host(host_options);
   for (const std::string& name : kHosted) host.add(name, parameters.child(name));
   auto& pilot = host.emplace<Pilot>("pilot", scenario);
@@ -121,6 +126,10 @@ void add_fly(CLI::App& app) {
                    "Folder for report.json, flight.png and the map; made where it is missing");
   verb->add_option("--seed", options->seed, "Seed of everything random, instead of the scenario's")
       ->check(CLI::NonNegativeNumber);
+  verb->add_option("--what-if", options->what_if,
+                   "Something that goes wrong: \"kill estimator@12.5\", \"delay scan 80ms\", "
+                   "\"drop imu0 20%\", the last two with \"@3..4.5\" for a time; may be repeated")
+      ->take_all();
   options->parameters.add_to(*verb);
   options->network.add_to(*verb);
   verb->callback([options] {

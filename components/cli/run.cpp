@@ -14,6 +14,7 @@ namespace {
 struct RunOptions {
   std::vector<std::string> components;
   std::string scenario;
+  int standby = 0;
   ParameterOptions parameters;
   NetworkOptions network;
 };
@@ -27,7 +28,10 @@ int run(const RunOptions& options) {
     }
   }
   Config parameters = options.parameters.load();
-  Host host(options.network.host_options(fmt::format("{}", fmt::join(options.components, "+"))));
+  HostOptions host_options =
+      options.network.host_options(fmt::format("{}", fmt::join(options.components, "+")));
+  host_options.standby = options.standby;
+  Host host(host_options);
   for (const std::string& name : options.components) {
     // One scenario for all who need one.
     const bool needs_scenario = name == "sim" || name == "pilot";
@@ -50,6 +54,11 @@ void add_run(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("run", "Host components on this machine");
   verb->add_option("components", options->components, "See: swiftlet component list")->required();
   verb->add_option("--scenario", options->scenario, "Scenario file of the simulator and the pilot");
+  verb->add_option(
+          "--standby", options->standby,
+          "Place in the line of succession: 0 comes first; 1 and above wait, hear everything "
+          "and take over when the active instance falls silent")
+      ->check(CLI::Range(0, 9));
   options->parameters.add_to(*verb);
   options->network.add_to(*verb);
   verb->callback([options] {

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <deque>
 
+#include "components/commander/attendance.hpp"
 #include "components/commander/mission_message.hpp"
+#include "components/commander/state_message.hpp"
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
 #include "components/planner/trajectory_message.hpp"
@@ -22,6 +25,8 @@ constexpr int kGoalEvery = 10;    // ticks
 constexpr int kStatusEvery = 10;  // ticks
 /// Commands that were answered, kept so that one that comes again is not carried out again.
 constexpr std::size_t kRememberedCommands = 64;
+/// Missions are flown by what these do.
+constexpr std::array kGuides{"flight_controller", "planner", "lidar_mapper"};
 
 FlightDirector::Params read_params(const Config& config) {
   FlightDirector::Params params;
@@ -62,7 +67,8 @@ std::uint8_t to_msg(SetpointKind kind) {
   return kind == SetpointKind::kLevel ? LEVEL : MOTORS_OFF;
 }
 
-/// Who decides what is flown: commands in, setpoints out.
+/// Who decides what is flown: commands in, setpoints out. A standby hears the same, decides
+/// nothing, and keeps the state of the one that does.
 class Commander : public Component {
  public:
   explicit Commander(const ComponentContext& context)
@@ -71,6 +77,7 @@ class Commander : public Component {
     goal_ = advertise(topic::goal);
     status_ = advertise(topic::vehicle_status);
     ack_ = advertise(topic::mode_ack);
+    state_ = advertise(topic::commander_state);
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
       const auto& covariance = odometry.pose().covariance();
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
@@ -80,16 +87,20 @@ class Commander : public Component {
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       director_.set_range_down(range.range());
     });
-    subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
-      director_.set_battery(battery.percentage());
-    });
+    subscribe(
+        topic::battery,
+        [this](const sensor_msgs::msg::BatteryState& battery) {
+          director_.set_battery(battery.percentage());
+        },
+        Need::kOptional);
     subscribe(topic::motors, [this](const swiftlet_msgs::msg::MotorCommand&) {
       director_.set_motors_heard(now());
     });
     subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& trajectory) {
       const bool brake = trajectory.status() == swiftlet_msgs::msg::Trajectory_Constants::BRAKE;
-      director_.set_plan({from_msg(trajectory.goal_stamp()), from_msg(trajectory), brake,
-                          trajectory.failure(), trajectory.reason()});
+      last_plan_ = {from_msg(trajectory.goal_stamp()), from_msg(trajectory), brake,
+                    trajectory.failure(), trajectory.reason()};
+      if (active()) director_.set_plan(last_plan_);
     });
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
       answer(command.id(), [&] { return carry_out(command); });
@@ -97,7 +108,22 @@ class Commander : public Component {
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
       answer(mission.id(), [&] { return carry_out(mission); });
     });
-    every(kTick, [this](Time now) { tick(now); });
+    subscribe(topic::commander_state, [this](const swiftlet_msgs::msg::CommanderState& state) {
+      if (!active()) restore(state);
+    });
+    subscribe(topic::component_status, [this](const swiftlet_msgs::msg::ComponentStatus& status) {
+      attendance_.heard_status(status, now());
+    });
+    for (const char* guide : kGuides) {
+      const std::string alive = topic::alive_name(guide);
+      subscribe(Topic<swiftlet_msgs::msg::ComponentStatus>{alive.c_str(), topic::alive_qos},
+                [this](const swiftlet_msgs::msg::ComponentStatus& sign) {
+                  attendance_.heard_alive(sign, now());
+                });
+    }
+    every(kTick, [this](Time now) {
+      if (active()) tick(now);
+    });
   }
 
  private:
@@ -119,6 +145,7 @@ class Commander : public Component {
   /// Carries a command out once, and acknowledges it each time it comes.
   template <class CarryOut>
   void answer(const std::string& id, CarryOut carry_out) {
+    if (!active()) return;
     for (const auto& known : answered_) {
       if (known.id() == id) {
         ack_.publish(known);
@@ -136,11 +163,13 @@ class Commander : public Component {
     }
     answered_.push_back(ack);
     if (answered_.size() > kRememberedCommands) answered_.pop_front();
+    publish_state(now());
     ack_.publish(ack);
     publish_status(now());
   }
 
   void tick(Time now) {
+    check_others(now);
     const FlightDirector::Directive directive = director_.tick(now);
     swiftlet_msgs::msg::Setpoint setpoint;
     setpoint.header(make_header(directive.setpoint.time, frame::kMap));
@@ -152,7 +181,39 @@ class Commander : public Component {
       publish_goal(*directive.goal);
     }
     if (directive.transition) log()->info("{}", describe(*directive.transition));
+    if (differs(director_.state(), shared_)) publish_state(now);
     if (directive.transition || ticks_ % kStatusEvery == 0) publish_status(now);
+  }
+
+  void check_others(Time now) {
+    if (ticks_ % kStatusEvery == 0) director_.set_system_problem(attendance_.problem(now));
+    std::string problem;
+    for (const char* guide : kGuides) {
+      if (problem.empty()) problem = attendance_.failure(guide, now);
+    }
+    director_.set_guidance_problem(problem);
+  }
+
+  void on_activated(Time) override {
+    if (!restored_) return;
+    log()->warn("takes over in {}", to_string(director_.state().machine.mode));
+    director_.set_plan(last_plan_);  // the other one may not have come to it
+  }
+
+  void publish_state(Time now) {
+    shared_ = director_.state();
+    swiftlet_msgs::msg::CommanderState message = to_msg(shared_);
+    message.header(make_header(now, frame::kMap));
+    message.mission().id(mission_id_);
+    message.answered().assign(answered_.begin(), answered_.end());
+    state_.publish(message);
+  }
+
+  void restore(const swiftlet_msgs::msg::CommanderState& message) {
+    director_.restore(from_msg(message));
+    mission_id_ = message.mission().id();
+    answered_.assign(message.answered().begin(), message.answered().end());
+    restored_ = true;
   }
 
   /// Again and again while it holds, so that a planner that hears nothing knows that it is over.
@@ -181,6 +242,10 @@ class Commander : public Component {
   }
 
   FlightDirector director_;
+  FlightDirector::State shared_;  // as the standby knows it
+  bool restored_ = false;
+  PlanAnswer last_plan_;
+  Attendance attendance_;
   std::string mission_id_;
   std::deque<swiftlet_msgs::msg::CommandAck> answered_;
   std::int64_t ticks_ = 0;
@@ -189,6 +254,7 @@ class Commander : public Component {
   Publisher<geometry_msgs::msg::PoseStamped> goal_;
   Publisher<swiftlet_msgs::msg::VehicleStatus> status_;
   Publisher<swiftlet_msgs::msg::CommandAck> ack_;
+  Publisher<swiftlet_msgs::msg::CommanderState> state_;
 };
 
 const RegisterComponent<Commander> kRegistered{"commander",

@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMaxWaiting = 20;
 /// A vehicle may stand on the ground, too low to map, for a while.
 constexpr int kOutsideToWarn = 300;
+constexpr Duration kAlivePeriod = 50ms;  // large maps take their time
 
 struct Params {
   OccupancyGrid::Params grid;
@@ -53,7 +54,8 @@ LaserScan from_msg(const sensor_msgs::msg::LaserScan& message) {
   return scan;
 }
 
-/// An occupancy map from scans at the poses of odometry.
+/// An occupancy map from scans at the poses of odometry. One that is started beside another begins
+/// with the map that is there.
 class LidarMapper : public Component {
  public:
   explicit LidarMapper(const ComponentContext& context)
@@ -61,7 +63,16 @@ class LidarMapper : public Component {
         params_(read_params(parameters())),
         grid_(params_.grid),
         poses_(std::chrono::seconds(5)) {
+    set_alive_period(kAlivePeriod);
     map_ = advertise(topic::map);
+    subscribe(
+        topic::map,
+        [this](const nav_msgs::msg::OccupancyGrid& map) {
+          if (active() || std::exchange(adopted_, true)) return;
+          grid_ = swiftlet::from_msg(map, params_.grid);
+          log()->info("begins with the map of another instance");
+        },
+        Need::kOptional);
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
       const RigidBodyState state = swiftlet::from_msg(odometry);
       poses_.add(swiftlet::from_msg(odometry.header().stamp()), {state.p_WB, state.q_WB});
@@ -123,7 +134,8 @@ class LidarMapper : public Component {
   std::string odometry_frame_;
   std::deque<sensor_msgs::msg::LaserScan> waiting_;
   bool changed_ = false;
-  int outside_ = 0;  // scans without a beam inside the height band, before the first with one
+  bool adopted_ = false;  // another instance's map
+  int outside_ = 0;       // scans without a beam inside the height band, before the first with one
   Publisher<nav_msgs::msg::OccupancyGrid> map_;
 };
 

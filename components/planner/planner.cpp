@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration kGoalPeriod = 100ms;  // of the commander
 constexpr Duration kTick = 50ms;
+constexpr Duration kAlivePeriod = 100ms;  // no plan takes longer
 
 namespace answers = swiftlet_msgs::msg::Trajectory_Constants;
 
@@ -61,11 +62,13 @@ Replanner::Params read_params(const Config& config) {
   return params;
 }
 
-/// A trajectory to the goal through the map, planned anew at 5 Hz and when the map blocks it.
+/// A trajectory to the goal through the map, planned anew at 5 Hz and when the map blocks it. A
+/// standby keeps what the active planner answered last, and goes on from there.
 class Planner : public Component {
  public:
   explicit Planner(const ComponentContext& context)
       : Component(context), replanner_(read_params(parameters())), goal_watch_(kGoalPeriod) {
+    set_alive_period(kAlivePeriod);
     trajectory_ = advertise(topic::trajectory);
     path_ = advertise(topic::path);
     subscribe(topic::odometry,
@@ -78,6 +81,9 @@ class Planner : public Component {
       grid_ = from_msg(map, OccupancyGrid::Params());
       plan();
     });
+    subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& answer) {
+      if (!active()) adopt(answer);
+    });
     every(kTick, [this](Time) { plan(); });
   }
 
@@ -85,10 +91,10 @@ class Planner : public Component {
   void on_goal(const geometry_msgs::msg::PoseStamped& message) {
     goal_watch_.heard(now());
     const Time identity = from_msg(message.header().stamp());
-    if (goal_identity_ == identity) return;
-    goal_identity_ = identity;
     goal_.position = from_msg(message.pose().position());
     goal_.yaw = yaw_of(from_msg(message.pose().orientation()));
+    if (goal_identity_ == identity) return;
+    goal_identity_ = identity;
     finished_ = false;
     braking_ = false;
     replanner_.reset();
@@ -97,7 +103,16 @@ class Planner : public Component {
     plan();
   }
 
+  /// What the active planner answered.
+  void adopt(const swiftlet_msgs::msg::Trajectory& answer) {
+    goal_identity_ = from_msg(answer.goal_stamp());
+    current_ = from_msg(answer);
+    braking_ = answer.status() == answers::BRAKE;
+    finished_ = answer.status() == answers::FAILED;
+  }
+
   void plan() {
+    if (!active()) return;
     if (goal_watch_.stale(now())) {
       goal_identity_.reset();
       current_ = {};

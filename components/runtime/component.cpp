@@ -75,11 +75,11 @@ void Component::sample_rates(Time now) {
   for (SubscriptionTask* input : needed_) input->sample_rate(now);
 }
 
-std::vector<std::string> Component::problems(Time now) const {
-  std::vector<std::string> problems;
+std::vector<InputWatch::Problem> Component::problems(Time now) const {
+  std::vector<InputWatch::Problem> problems;
   for (const SubscriptionTask* input : needed_) {
-    std::string problem = input->problem(now);
-    if (!problem.empty()) problems.push_back(std::move(problem));
+    InputWatch::Problem problem = input->problem(now);
+    if (!problem.text.empty()) problems.push_back(std::move(problem));
   }
   return problems;
 }

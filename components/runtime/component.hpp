@@ -133,7 +133,7 @@ class Component {
   void set_live_parameters(std::vector<std::string> names,
                            std::function<void(const Config& changed)> apply);
   /// What is wrong with its inputs at this moment.
-  std::vector<std::string> problems(Time now) const;
+  std::vector<InputWatch::Problem> problems(Time now) const;
 
   const Config& parameters() const { return context_.parameters; }
   const ComponentContext& context() const { return context_; }
@@ -151,7 +151,7 @@ class Component {
     void silence() { reader_.reset(); }
     void run() final;
     virtual void sample_rate(Time) {}
-    virtual std::string problem(Time) const { return ""; }
+    virtual InputWatch::Problem problem(Time) const { return {}; }
 
    protected:
     virtual void dispatch_one(Reader& reader) = 0;
@@ -177,7 +177,9 @@ class Component {
       }
     }
     void sample_rate(Time now) override { watch_.sample_rate(now); }
-    std::string problem(Time now) const override { return watch_.problem(now, matched_writers()); }
+    InputWatch::Problem problem(Time now) const override {
+      return watch_.problem(now, matched_writers());
+    }
 
    private:
     InputWatch watch_;

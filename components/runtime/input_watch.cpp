@@ -41,19 +41,19 @@ std::optional<double> InputWatch::rate_hz() const {
   return static_cast<double>(counts_.back().messages - counts_.front().messages) / time;
 }
 
-std::string InputWatch::problem(Time now, int matched_writers) const {
-  if (!periodic()) return "";
-  if (matched_writers == 0) return fmt::format("{}: nobody writes it", topic_);
-  if (!heard_) return fmt::format("{}: its writer has sent nothing yet", topic_);
+InputWatch::Problem InputWatch::problem(Time now, int matched_writers) const {
+  if (!periodic()) return {};
+  if (matched_writers == 0) return {fmt::format("{}: nobody writes it", topic_), true};
+  if (!heard_) return {fmt::format("{}: its writer has sent nothing yet", topic_), true};
   if (now - *heard_ > std::max(kSilentPeriods * period_, kShortestSilence)) {
-    return fmt::format("{}: silent for {:.2f} s", topic_, to_seconds(now - *heard_));
+    return {fmt::format("{}: silent for {:.2f} s", topic_, to_seconds(now - *heard_)), true};
   }
   const std::optional<double> rate = rate_hz();
   const double wanted = 1.0 / to_seconds(period_);
   if (rate && *rate < kSlow * wanted) {
-    return fmt::format("{}: {:.0f} Hz, {:.0f} Hz are usual", topic_, *rate, wanted);
+    return {fmt::format("{}: {:.0f} Hz, {:.0f} Hz are usual", topic_, *rate, wanted), false};
   }
-  return "";
+  return {};
 }
 
 }  // namespace swiftlet

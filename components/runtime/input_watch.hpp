@@ -29,8 +29,12 @@ class InputWatch {
 
   /// Notes the number of messages since the last call, several times a second.
   void sample_rate(Time now);
-  /// Why the input does not do: "scan: nobody writes it". "" where it does.
-  std::string problem(Time now, int matched_writers) const;
+  /// What is wrong with the input.
+  struct Problem {
+    std::string text;      ///< "scan: nobody writes it"; "" where nothing is
+    bool missing = false;  ///< nothing comes at all, as opposed to too little
+  };
+  Problem problem(Time now, int matched_writers) const;
 
   const std::string& topic() const { return topic_; }
   bool periodic() const { return period_ > Duration(0); }

@@ -56,7 +56,10 @@ void Supervision::show_life(Time now) {
 void Supervision::publish_status(Time now) {
   component_.sample_rates(now);
   ComponentStatus message = status(now);
-  for (std::string& problem : component_.problems(now)) message.problems().push_back(problem);
+  for (const InputWatch::Problem& problem : component_.problems(now)) {
+    message.problems().push_back(problem.text);
+    message.blocked(message.blocked() || problem.missing);
+  }
   status_.publish(message);
 }
 

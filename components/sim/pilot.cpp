@@ -20,6 +20,10 @@ constexpr Duration kResend = 500ms;
 constexpr Duration kAckTimeout = 5s;
 /// After the rotors stopped, until the vehicle rests.
 constexpr Duration kSettle = 1s;
+/// A commander whose status does not come any more for so long is not there.
+constexpr Duration kStatusTimeout = 1s;
+/// After something went wrong, until the run ends: what becomes of the vehicle belongs to the run.
+constexpr Duration kAftermath = 8s;
 /// How long the vehicle may take to become ready before it is armed.
 constexpr Duration kReadyTimeout = 30s;
 
@@ -51,14 +55,14 @@ Pilot::Pilot(const ComponentContext& context, const Scenario& scenario)
   waypoints_ = advertise(topic::waypoints);
   subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
     status_ = status;
-    status_heard_ = true;
+    status_heard_ = now();
   });
   subscribe(topic::mode_ack, [this](const swiftlet_msgs::msg::CommandAck& ack) { on_ack(ack); });
   every(kTick, [this](Time now) { advance(now); });
 }
 
 void Pilot::on_ack(const swiftlet_msgs::msg::CommandAck& ack) {
-  if (ack.id() != command_id()) return;
+  if (ack.id() != command_id() || failed_at_) return;
   if (!ack.accepted()) {
     finish(false, ack.reason());
   } else {
@@ -68,6 +72,10 @@ void Pilot::on_ack(const swiftlet_msgs::msg::CommandAck& ack) {
 
 void Pilot::advance(Time now) {
   if (step_ == Step::kDone) return;
+  if (failed_at_) {
+    if (now - *failed_at_ > kAftermath) end();
+    return;
+  }
   if (!started_) {
     started_ = true;
     begun_ = now;
@@ -82,6 +90,12 @@ void Pilot::advance(Time now) {
   if (step_ != Step::kArm && to_seconds(now - armed_at_) > scenario_.time_limit_s) {
     finish(false, fmt::format("time limit of {} s exceeded during {}", scenario_.time_limit_s,
                               step_name()));
+    return;
+  }
+  if (step_ != Step::kArm && now - *status_heard_ > kStatusTimeout) {
+    finish(false, fmt::format("nothing on vehicle/status for {:.1f} s during {}: the commander is "
+                              "silent",
+                              to_seconds(now - *status_heard_), step_name()));
     return;
   }
   if (!acknowledged_) {
@@ -156,13 +170,19 @@ void Pilot::finish(bool success, const std::string& reason) {
   outcome_.success = success;
   outcome_.reason = reason;
   outcome_.flight_time = armed_at_ == Time{} ? 0.0 : to_seconds(now() - armed_at_);
-  step_ = Step::kDone;
   if (success) {
     log()->info("{}", reason);
+    end();
   } else {
     log()->error("{}", reason);
+    failed_at_ = now();
+    if (armed_at_ == Time{}) end();  // it never left the ground
   }
-  stop(success ? 0 : 1);
+}
+
+void Pilot::end() {
+  step_ = Step::kDone;
+  stop(outcome_.success ? 0 : 1);
 }
 
 std::string Pilot::command_id() const {

@@ -20,7 +20,8 @@ struct FlightOutcome {
 
 /// Flies the mission of a scenario with the commands that a person would give at the ground
 /// station: arm, take off, the waypoints, land. Then it ends the run, with exit code 0 when all of
-/// it was done and 1 when not.
+/// it was done and 1 when not; the latter some seconds after the failure, to show what became of
+/// the vehicle.
 class Pilot : public Component {
  public:
   explicit Pilot(const ComponentContext& context);
@@ -35,6 +36,7 @@ class Pilot : public Component {
   void send(Time now);
   void begin(Step step);
   void finish(bool success, const std::string& reason);
+  void end();
   void on_ack(const swiftlet_msgs::msg::CommandAck& ack);
   std::string command_id() const;
   const char* step_name() const;
@@ -47,8 +49,9 @@ class Pilot : public Component {
   Time armed_at_{};
   bool started_ = false;
   std::optional<Time> landed_at_;
+  std::optional<Time> failed_at_;
   swiftlet_msgs::msg::VehicleStatus status_;
-  bool status_heard_ = false;
+  std::optional<Time> status_heard_;
   FlightOutcome outcome_;
   Publisher<swiftlet_msgs::msg::ModeCommand> mode_;
   Publisher<swiftlet_msgs::msg::Mission> waypoints_;

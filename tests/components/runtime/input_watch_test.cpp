@@ -28,16 +28,16 @@ TEST(InputWatch, ATopicWithoutPeriodIsHeardFromAnybody) {
   InputWatch watch("mode", 0ms);
   EXPECT_TRUE(watch.accept(kFirst, Time(0ms)));
   EXPECT_TRUE(watch.accept(kSecond, Time(0ms)));
-  EXPECT_EQ(watch.problem(Time(10s), 0), "");
+  EXPECT_EQ(watch.problem(Time(10s), 0).text, "");
 }
 
 TEST(InputWatch, SaysWhatIsMissing) {
   InputWatch watch("scan", 100ms);
-  EXPECT_THAT(watch.problem(Time(1s), 0), HasSubstr("nobody writes it"));
-  EXPECT_THAT(watch.problem(Time(1s), 1), HasSubstr("has sent nothing"));
+  EXPECT_THAT(watch.problem(Time(1s), 0).text, HasSubstr("nobody writes it"));
+  EXPECT_THAT(watch.problem(Time(1s), 1).text, HasSubstr("has sent nothing"));
   watch.accept(kFirst, Time(1s));
-  EXPECT_EQ(watch.problem(Time(1300ms), 1), "");
-  EXPECT_THAT(watch.problem(Time(1310ms), 1), HasSubstr("silent for 0.31 s"));
+  EXPECT_EQ(watch.problem(Time(1300ms), 1).text, "");
+  EXPECT_THAT(watch.problem(Time(1310ms), 1).text, HasSubstr("silent for 0.31 s"));
 }
 
 /// What is said of a topic of 100 Hz that comes every `period`.
@@ -48,7 +48,7 @@ std::string problem_at(Duration period) {
     watch.accept(kFirst, now);
     for (; status <= now; status += 200ms) watch.sample_rate(status);
   }
-  return watch.problem(Time(3s), 1);
+  return watch.problem(Time(3s), 1).text;
 }
 
 TEST(InputWatch, HalfTheRateIsTooSlow) {

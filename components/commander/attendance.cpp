@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/commander/attendance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kSilentPeriods = 3.0;
+/// A successor takes over after three periods, and needs some time to be heard.
+constexpr double kSilentPeriodsWithStandby = 7.0;
+/// Silences that a busy machine has are nobody's death [s].
+constexpr double kShortestSilence = 0.1;
+/// Who was not heard for so long has left [s].
+constexpr double kGone = 10.0;
+
+bool silent(const swiftlet_msgs::msg::ComponentStatus& status, double age, double periods) {
+  return age > std::max(periods * status.period(), kShortestSilence);
+}
+
+}  // namespace
+
+void Attendance::heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Time now) {
+  Instance& instance = components_[sign.component_name()][sign.instance()];
+  instance.heard = now;
+  instance.status.period(sign.period());
+  instance.status.active(sign.active());
+  instance.status.term(sign.term());
+}
+
+void Attendance::heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now) {
+  components_[status.component_name()][status.instance()] = {status, now};
+}
+
+const Attendance::Instance* Attendance::leader(const Instances& instances) {
+  const Instance* leader = nullptr;
+  for (const auto& [identity, instance] : instances) {
+    if (!instance.status.active()) continue;
+    if (leader == nullptr || leader->status.term() < instance.status.term()) leader = &instance;
+  }
+  return leader;
+}
+
+std::string Attendance::problem(Time now) const {
+  for (const auto& [component, instances] : components_) {
+    const Instance* active = leader(instances);
+    if (active == nullptr) continue;
+    const double age = to_seconds(now - active->heard);
+    if (age > kGone) continue;
+    if (silent(active->status, age, kSilentPeriodsWithStandby)) {
+      return fmt::format("{}: silent for {:.1f} s; does its process live?", component, age);
+    }
+    if (!active->status.problems().empty()) {
+      return fmt::format("{}: {}", component, active->status.problems().front());
+    }
+  }
+  return "";
+}
+
+std::string Attendance::failure(const std::string& component, Time now) const {
+  const auto found = components_.find(component);
+  const Instance* active = found == components_.end() ? nullptr : leader(found->second);
+  if (active == nullptr) return "";
+  const double age = to_seconds(now - active->heard);
+  const bool has_standby =
+      std::any_of(found->second.begin(), found->second.end(), [now](const auto& entry) {
+        const Instance& instance = entry.second;
+        return !instance.status.active() &&
+               !silent(instance.status, to_seconds(now - instance.heard), kSilentPeriods);
+      });
+  if (silent(active->status, age, has_standby ? kSilentPeriodsWithStandby : kSilentPeriods)) {
+    return fmt::format("the {} fell silent {:.2f} s ago", component, age);
+  }
+  if (active->status.blocked() && !active->status.problems().empty()) {
+    return fmt::format("the {} cannot work: {}", component, active->status.problems().front());
+  }
+  return "";
+}
+
+}  // namespace swiftlet

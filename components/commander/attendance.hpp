@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "estimation/basics/time.hpp"
+#include "swiftlet_msgs.h"
+
+namespace swiftlet {
+
+/// Who is on board and how they are, from their signs of life: what must be known before arming,
+/// and while others are relied on.
+class Attendance {
+ public:
+  /// A sign of life, which says nothing of problems.
+  void heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Time now);
+  void heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now);
+
+  /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
+  /// writes it". "" where all is well. Who went away long ago is forgotten.
+  std::string problem(Time now) const;
+  /// The same of one component that is relied on in flight, if it was ever there: that it is silent
+  /// or blocked. Where an instance stands by, it has the time to take over.
+  std::string failure(const std::string& component, Time now) const;
+
+ private:
+  struct Instance {
+    swiftlet_msgs::msg::ComponentStatus status;  // with the problems that were reported last
+    Time heard{};
+  };
+  using Instances = std::map<std::string, Instance>;
+  /// The active one; of several the one that took over last.
+  static const Instance* leader(const Instances& instances);
+
+  std::map<std::string, Instances> components_;  // instances by their identity
+};
+
+}  // namespace swiftlet
