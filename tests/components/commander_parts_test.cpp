@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "components/commander/attendance.hpp"
+#include "components/commander/state_message.hpp"
+#include "components/runtime/message.hpp"
+#include "planner/trajectory/minimum_snap.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+using swiftlet_msgs::msg::ComponentStatus;
+using ::testing::HasSubstr;
+
+ComponentStatus status(const std::string& component, const std::string& instance, bool active,
+                       std::uint32_t term, const std::string& problem = "", bool blocked = false) {
+  ComponentStatus status;
+  status.component_name(component);
+  status.instance(instance);
+  status.active(active);
+  status.term(term);
+  status.period(0.1);
+  if (!problem.empty()) status.problems({problem});
+  status.blocked(blocked);
+  return status;
+}
+
+TEST(Attendance, WhoWasNeverThereIsNotMissed) {
+  const Attendance attendance;
+  EXPECT_EQ(attendance.problem(Time(100s)), "");
+  EXPECT_EQ(attendance.failure("planner", Time(100s)), "");
+}
+
+TEST(Attendance, ThreePeriodsOfSilenceAreAFailure) {
+  Attendance attendance;
+  attendance.heard_status(status("planner", "a", true, 1), Time(10s));
+  attendance.heard_alive(status("planner", "a", true, 1), Time(11s));
+  EXPECT_EQ(attendance.failure("planner", Time(11300ms)), "");
+  EXPECT_EQ(attendance.failure("planner", Time(11310ms)), "the planner fell silent 0.31 s ago");
+  EXPECT_EQ(attendance.failure("commander", Time(11310ms)), "");
+}
+
+TEST(Attendance, AStandbyIsGivenTheTimeToTakeOver) {
+  Attendance attendance;
+  attendance.heard_status(status("planner", "a", true, 1), Time(10s));
+  attendance.heard_status(status("planner", "b", false, 0), Time(10s));
+  for (Time now(10s); now < Time(10500ms); now += 100ms) {
+    attendance.heard_alive(status("planner", "b", false, 0), now);
+  }
+  EXPECT_EQ(attendance.failure("planner", Time(10500ms)), "");
+  attendance.heard_alive(status("planner", "b", true, 2), Time(10500ms));
+  EXPECT_EQ(attendance.failure("planner", Time(10700ms)), "") << "there is a successor";
+  EXPECT_EQ(attendance.problem(Time(10700ms)), "") << "and the dead one is not missed";
+  EXPECT_THAT(attendance.failure("planner", Time(11500ms)), HasSubstr("fell silent 1.00 s ago"));
+}
+
+TEST(Attendance, ProblemsThatOthersReportKeepFromArming) {
+  Attendance attendance;
+  attendance.heard_status(status("estimator", "a", true, 1, "imu0: 300 Hz, 1000 Hz are usual"),
+                          Time(10s));
+  attendance.heard_alive(status("estimator", "a", true, 1), Time(10100ms));
+  EXPECT_EQ(attendance.problem(Time(10100ms)), "estimator: imu0: 300 Hz, 1000 Hz are usual")
+      << "a sign of life says nothing of problems";
+  EXPECT_EQ(attendance.failure("estimator", Time(10100ms)), "") << "slow, but it works";
+  attendance.heard_status(status("estimator", "a", true, 1, "imu0: silent for 1.00 s", true),
+                          Time(10200ms));
+  EXPECT_THAT(attendance.failure("estimator", Time(10200ms)), HasSubstr("imu0: silent"));
+  attendance.heard_status(status("estimator", "a", true, 1), Time(10300ms));
+  EXPECT_EQ(attendance.problem(Time(10300ms)), "");
+}
+
+TEST(Attendance, WhoLeftLongAgoIsForgotten) {
+  Attendance attendance;
+  attendance.heard_status(status("planner", "a", true, 1), Time(10s));
+  EXPECT_THAT(attendance.problem(Time(12s)), HasSubstr("planner: silent for 2.0 s"));
+  EXPECT_EQ(attendance.problem(Time(21s)), "");
+}
+
+FlightDirector::State some_state() {
+  FlightDirector::State state;
+  state.machine = {Mode::kIndoorNavigation, true, false, 1.25, 77};
+  state.takeoff_point = {1.0, 2.0, 3.0};
+  const auto plan = [](Time start) {
+    return *minimum_snap(start, FlatReference(), {{Eigen::Vector3d(1, 2, 1), 0.5}}, {3.0});
+  };
+  state.simple = FlightReference::move(Time(5s), {0, 0, 0}, {0, 0, 1}, 0.3, {})->trajectory();
+  state.active = plan(Time(6s));
+  state.coming = {plan(Time(7s)), plan(Time(8s))};
+  state.waypoints = {{Eigen::Vector3d(1, 2, 1), 0.5}, {Eigen::Vector3d(4, 5, 1), std::nullopt}};
+  state.waypoint = 1;
+  state.goal = PlanGoal{Time(5500ms), state.waypoints[1]};
+  state.waiting_since = Time(5600ms);
+  state.refusal = "too fast";
+  state.navigation = Situation::Navigation::kActive;
+  state.navigation_problem = "none";
+  state.last_reason = "mission requested";
+  return state;
+}
+
+/// As it comes out of a message that was on the wire.
+FlightDirector::State sent(const FlightDirector::State& state) {
+  const auto message = from_cdr<swiftlet_msgs::msg::CommanderState>(to_cdr(to_msg(state)));
+  EXPECT_TRUE(message.ok());
+  return from_msg(*message);
+}
+
+TEST(StateMessage, CarriesAllThatASuccessorNeeds) {
+  const FlightDirector::State state = some_state();
+  const FlightDirector::State copy = sent(state);
+  EXPECT_FALSE(differs(state, copy));
+  EXPECT_EQ(copy.takeoff_point, state.takeoff_point);
+  ASSERT_EQ(copy.waypoints.size(), 2u);
+  EXPECT_EQ(copy.waypoints[0].yaw, 0.5);
+  EXPECT_EQ(copy.waypoints[1].yaw, std::nullopt);
+  EXPECT_EQ(copy.waypoints[1].position, state.waypoints[1].position);
+  EXPECT_EQ(copy.goal->waypoint.position, state.goal->waypoint.position);
+  EXPECT_EQ(copy.navigation_problem, "none");
+  for (Time now(5s); now < Time(12s); now += 70ms) {
+    EXPECT_EQ(copy.simple.evaluate(now).position, state.simple.evaluate(now).position);
+    EXPECT_EQ(copy.active->evaluate(now).velocity, state.active->evaluate(now).velocity);
+    EXPECT_EQ(copy.coming[1].evaluate(now).yaw, state.coming[1].evaluate(now).yaw);
+  }
+}
+
+TEST(StateMessage, AStateThatHasDecidedNothingStaysSo) {
+  EXPECT_FALSE(differs(sent({}), {}));
+  EXPECT_FALSE(sent({}).goal.has_value());
+  EXPECT_FALSE(sent({}).active.has_value());
+  EXPECT_TRUE(sent({}).simple.empty());
+}
+
+TEST(StateMessage, EveryDecisionMakesADifference) {
+  const FlightDirector::State state = some_state();
+  const auto noticed = [&](auto change) {
+    FlightDirector::State other = state;
+    change(other);
+    return differs(state, other);
+  };
+  EXPECT_TRUE(noticed([](auto& s) { s.machine.mode = Mode::kHover; }));
+  EXPECT_TRUE(noticed([](auto& s) { s.machine.armed = false; }));
+  EXPECT_TRUE(noticed([](auto& s) { s.active.reset(); }));
+  EXPECT_TRUE(noticed([](auto& s) { s.coming.pop_back(); }));
+  EXPECT_TRUE(noticed([](auto& s) { s.waypoint = 0; }));
+  EXPECT_TRUE(noticed([](auto& s) { s.goal.reset(); }));
+  EXPECT_TRUE(noticed([](auto& s) { s.waiting_since.reset(); }));
+  EXPECT_TRUE(noticed([](auto& s) { s.mission_done = true; }));
+  EXPECT_TRUE(noticed([](auto& s) { s.last_reason = "other"; }));
+}
+
+}  // namespace
+}  // namespace swiftlet
