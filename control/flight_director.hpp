@@ -66,7 +66,9 @@ class FlightDirector {
     double arrival_speed = 0.20;       ///< [m/s]
     double arrival_timeout = 3.0;      ///< after the trajectory's end, then it counts as missed [s]
     double plan_timeout = 2.0;         ///< an unanswered goal fails after, at rest [s]
-    double estimate_timeout = 0.10;    ///< [s]
+    /// An estimate older than this is lost. A standby estimator takes over before, and the flight
+    /// controller bridges the gap with its IMU [s].
+    double estimate_timeout = 0.25;
     double estimate_sigma_max = 0.30;  ///< of the position, any axis [m]
     double heading_sigma_to_arm = 0.02;    ///< better known before take-off [rad]
     double min_battery_percentage = 0.15;  ///< to take off [0..1]

@@ -14,6 +14,8 @@ constexpr double kSilentPeriods = 3.0;
 constexpr double kSilentPeriodsWithStandby = 7.0;
 /// Silences that a busy machine has are nobody's death [s].
 constexpr double kShortestSilence = 0.1;
+/// Status comes five times a second [s].
+constexpr double kSilentStatus = 1.0;
 /// Who was not heard for so long has left [s].
 constexpr double kGone = 10.0;
 
@@ -50,7 +52,7 @@ std::string Attendance::problem(Time now) const {
     if (active == nullptr) continue;
     const double age = to_seconds(now - active->heard);
     if (age > kGone) continue;
-    if (silent(active->status, age, kSilentPeriodsWithStandby)) {
+    if (age > kSilentStatus) {
       return fmt::format("{}: silent for {:.1f} s; does its process live?", component, age);
     }
     if (!active->status.problems().empty()) {

@@ -44,6 +44,7 @@ Component::~Component() {
   // First silence the readers, so that nothing is posted any more; then end the thread.
   for (const auto& subscription : subscriptions_) subscription->silence();
   mailbox_.reset();
+  supervision_.reset();
 }
 
 void Component::supervise(int standby, Duration settle) {

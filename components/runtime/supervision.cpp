@@ -45,6 +45,13 @@ Supervision::Supervision(Component& component, const Options& options)
   if (options.settle == Duration(0)) show_life(component.now());
 }
 
+Supervision::~Supervision() {
+  ComponentStatus farewell = status(component_.now());
+  farewell.active(false);
+  alive_.publish(farewell);
+  status_.publish(farewell);
+}
+
 void Supervision::show_life(Time now) {
   if (succession_.update(now)) {
     component_.set_active(succession_.active(), now);

@@ -25,6 +25,10 @@ class Supervision {
 
   /// Of a component whose constructor has run. It must outlive this object.
   Supervision(Component& component, const Options& options);
+  /// Takes its leave, so that nobody waits for it.
+  ~Supervision();
+  Supervision(const Supervision&) = delete;
+  Supervision& operator=(const Supervision&) = delete;
 
  private:
   void show_life(Time now);

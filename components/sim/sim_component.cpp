@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "components/conversions.hpp"
 #include "components/runtime/staleness.hpp"
@@ -46,7 +47,8 @@ class SimComponent : public Component {
     subscribe(topic::motors, [this](const swiftlet_msgs::msg::MotorCommand& command) {
       motor_watch_.heard(now());
       std::copy(command.thrust().begin(), command.thrust().end(), thrust_.data());
-      if (!command.armed()) thrust_.setZero();
+      armed_ = command.armed();
+      if (!armed_) thrust_.setZero();
     });
     every(Simulation::kStep, [this](Time now) { catch_up(now); });
   }
@@ -55,9 +57,16 @@ class SimComponent : public Component {
   /// Simulates up to `now`; in live operation that can be several steps.
   void catch_up(Time now) {
     if (!begin_) begin_ = now - Simulation::kStep;
-    if (motor_watch_.stale(now)) thrust_.setZero();
+    if (motor_watch_.stale(now)) stop_motors();
     while (*begin_ + simulation_.time().time_since_epoch() + Simulation::kStep <= now) {
       publish(simulation_.step(Simulation::kStep, thrust_));
+    }
+  }
+
+  void stop_motors() {
+    thrust_.setZero();
+    if (std::exchange(armed_, false)) {
+      log()->error("no motor commands for {:.2f} s: motors stopped", to_seconds(kMotorTimeout));
     }
   }
 
@@ -166,6 +175,7 @@ class SimComponent : public Component {
   std::optional<Time> begin_;  // of the simulation, on the clock of the run
   std::int64_t steps_ = 0;
   Eigen::Vector4d thrust_ = Eigen::Vector4d::Zero();
+  bool armed_ = false;
   StalenessWatch motor_watch_;
   std::array<Publisher<sensor_msgs::msg::Imu>, 3> imu_;
   sensor_msgs::msg::Imu imu_message_;

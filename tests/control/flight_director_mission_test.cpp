@@ -382,7 +382,7 @@ TEST(FlightDirectorMission, ALostEstimateEndsItAndLands) {
   flight.begin();
   ASSERT_TRUE(flight.get_under_way());
   flight.estimator = false;
-  ASSERT_TRUE(flight.fly_until(Mode::kLand, 0.2));
+  ASSERT_TRUE(flight.fly_until(Mode::kLand, 0.3));
   EXPECT_THAT(flight.transitions.back(), HasSubstr("estimate lost"));
   EXPECT_FALSE(flight.last.goal.has_value());
   EXPECT_TRUE(flight.fly_until(Mode::kGrounded, 10.0));
