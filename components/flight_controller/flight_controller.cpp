@@ -10,6 +10,9 @@
 namespace swiftlet {
 namespace {
 
+constexpr Range kTimeout{0.001, 1.0};       // [s]
+constexpr Range kLongTimeout{0.001, 60.0};  // [s]
+
 struct Params {
   FlightLoop::Params loop;
   QuadrotorModel model;
@@ -26,27 +29,29 @@ Params read_params(const Config& config) {
   config.read("rate_gain", gains.rate_gain, kPositive);
   config.read("integral_gain", gains.integral_gain, kNotNegative);
   config.read("max_tilt", gains.max_tilt, {0.05, 1.39});
-  config.read("setpoint_timeout", params.loop.setpoint_timeout, kPositive);
-  config.read("estimate_timeout", params.loop.estimate_timeout, kPositive);
-  config.read("sinking_thrust_to_weight", params.loop.sinking_thrust_to_weight, {0.5, 1.0});
+  FlightLoop::Params& loop = params.loop;
+  config.read("setpoint_timeout", loop.setpoint_timeout, kTimeout);
+  config.read("estimate_timeout", loop.estimate_timeout, kTimeout);
+  config.read("inertial_timeout", loop.inertial_timeout, kTimeout);
+  config.read("velocity_timeout", loop.velocity_timeout, kLongTimeout);
+  if (loop.inertial_timeout < loop.estimate_timeout) {
+    config.fail("inertial_timeout", "'inertial_timeout' must not be below 'estimate_timeout'");
+  }
+  if (loop.velocity_timeout < loop.inertial_timeout) {
+    config.fail("velocity_timeout", "'velocity_timeout' must not be below 'inertial_timeout'");
+  }
+  config.read("abandoned_timeout", loop.abandoned.timeout, kLongTimeout);
+  config.read("landing_speed", loop.landing_speed, {0.05, 5.0});
+  config.read("braking_acceleration", loop.abandoned.braking.acceleration, {0.1, 10.0});
+  config.read("ground_range", loop.sonar.ground_range, {0.01, 10.0});
+  config.read("sinking_thrust_to_weight", loop.sinking_thrust_to_weight, {0.5, 1.0});
   config.read("control_every", params.control_every, {1, 100});
   return params;
 }
 
-const char* describe(FlightLoop::Behaviour behaviour) {
-  switch (behaviour) {
-    case FlightLoop::Behaviour::kMotorsOff:
-      return "motors off";
-    case FlightLoop::Behaviour::kTracking:
-      return "tracking the setpoint";
-    case FlightLoop::Behaviour::kLevel:
-      return "level and sinking, as asked";
-    case FlightLoop::Behaviour::kStaleSetpoint:
-      return "no fresh setpoint: keeping level";
-    case FlightLoop::Behaviour::kStaleEstimate:
-      return "no fresh odometry: level and sinking";
-  }
-  return "unknown";
+bool is_fallback(FlightLoop::Behaviour behaviour) {
+  using Behaviour = FlightLoop::Behaviour;
+  return behaviour != Behaviour::kMotorsOff && behaviour != Behaviour::kTracking;
 }
 
 /// From setpoint and odometry to motors, with the SE(3) controller of seed 000, paced by the IMU.
@@ -62,6 +67,9 @@ class FlightController : public Component {
       loop_.set_setpoint(
           {from_msg(setpoint.header().stamp()), kind_of(setpoint.kind()), reference_of(setpoint)});
     });
+    subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
+      loop_.set_range_down(range.range());
+    });
     subscribe(topic::imu0, [this](const sensor_msgs::msg::Imu& imu) {
       if (++samples_ % params_.control_every == 0) control(imu);
     });
@@ -76,20 +84,30 @@ class FlightController : public Component {
 
   void control(const sensor_msgs::msg::Imu& imu) {
     const Time time = from_msg(imu.header().stamp());
-    const FlightLoop::Output output = loop_.step(time, from_msg(imu).angular_velocity);
-    if (output.behaviour != behaviour_) {
-      behaviour_ = output.behaviour;
-      log()->info("{}", describe(behaviour_));
-    }
+    const FlightLoop::Output output = loop_.step(time, from_msg(imu));
+    tell(output);
     command_.stamp(to_msg(time));
-    command_.armed(behaviour_ != FlightLoop::Behaviour::kMotorsOff);
+    command_.armed(output.armed());
     std::copy_n(output.rotor_thrusts.data(), 4, command_.thrust().begin());
     motors_.publish(command_);
+  }
+
+  /// Each change, with its reason; what is not as planned as a warning.
+  void tell(const FlightLoop::Output& output) {
+    if (output.motors_off_refused && !refusal_told_) {
+      log()->warn("\"motors off\" from a commander that was away: not obeyed in the air");
+    }
+    refusal_told_ = output.motors_off_refused || (refusal_told_ && is_fallback(behaviour_));
+    if (output.behaviour == behaviour_) return;
+    behaviour_ = output.behaviour;
+    log()->log(is_fallback(behaviour_) ? spdlog::level::warn : spdlog::level::info, "{}",
+               describe(output));
   }
 
   Params params_;
   FlightLoop loop_;
   std::int64_t samples_ = 0;
+  bool refusal_told_ = false;
   FlightLoop::Behaviour behaviour_ = FlightLoop::Behaviour::kMotorsOff;
   swiftlet_msgs::msg::MotorCommand command_;
   Publisher<swiftlet_msgs::msg::MotorCommand> motors_;

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/flight_loop.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
 #include <random>
 #include <stdexcept>
 
-#include "control/flatness.hpp"
 #include "estimation/geometry/so3.hpp"
-#include "tests/control/trajectories.hpp"
-#include "tests/control/vehicle_simulation.hpp"
+#include "tests/control/loop_flight.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -20,58 +17,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 using Behaviour = FlightLoop::Behaviour;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr Duration kMillisecond = std::chrono::milliseconds(1);
-
-/// The circle needs more tilt than the default.
-FlightLoop::Params agile() {
-  FlightLoop::Params params;
-  params.controller.max_tilt = 1.0;
-  return params;
-}
-
-/// A vehicle, an estimator and a commander around the loop, as on board: control at 250 Hz,
-/// estimates at 250 Hz, setpoints at 100 Hz.
-struct Flight {
-  FlightLoop loop{agile(), {}};
-  Vehicle vehicle;
-  Rotors rotors{QuadrotorModel{}};
-  Time now{std::chrono::seconds(10)};
-  std::int64_t milliseconds = 0;
-  bool estimator = true, commander = true;
-  SetpointKind kind = SetpointKind::kTrack;
-  Duration stamps_ahead{};     // of setpoints
-  Duration estimates_ahead{};  // of estimates
-  std::function<FlatReference(double)> reference = [](double) {
-    FlatReference hover;
-    hover.position = Vector3d(0, 0, 2);
-    return hover;
-  };
-  FlightLoop::Output output;
-
-  Flight() { vehicle.p = Vector3d(0, 0, 2); }
-
-  double t() const { return static_cast<double>(milliseconds) * 1e-3; }
-
-  /// One millisecond.
-  void step() {
-    if (commander && milliseconds % 10 == 0) {
-      loop.set_setpoint({now + stamps_ahead, kind, reference(t())});
-    }
-    if (estimator && milliseconds % 4 == 1) {
-      loop.set_estimate(now + estimates_ahead, vehicle.state());
-    }
-    if (milliseconds % 4 == 0) output = loop.step(now, vehicle.w);
-    vehicle.step(rotors.step(output.rotor_thrusts, 1e-3), 1e-3);
-    now += kMillisecond;
-    ++milliseconds;
-  }
-
-  void fly_for(double seconds) {
-    for (int k = 0; k < static_cast<int>(seconds * 1e3 + 0.5); ++k) step();
-  }
-};
+using Flight = LoopFlight;
+using ::testing::HasSubstr;
 
 TEST(Extrapolate, IsExactForPolynomialsUpToTheFourthDegree) {
   std::mt19937 random(3);
@@ -137,7 +84,7 @@ TEST(FlightLoop, ASetpointThatIsFlownBetweenPeriodsIsExtrapolated) {
     state.p_WB = Vector3d(2 * dt, 1.5 * dt * dt, 0);
     state.v_WB_W = Vector3d(2, 3 * dt, 0);
     loop.set_estimate(t0 + ms * kMillisecond, state);
-    const auto output = loop.step(t0 + ms * kMillisecond, Vector3d::Zero());
+    const auto output = loop.step(t0 + ms * kMillisecond, at_rest());
     ASSERT_EQ(output.behaviour, Behaviour::kTracking);
     EXPECT_LT(output.tracking.position_error.norm(), 1e-9);
     EXPECT_LT(output.tracking.velocity_error.norm(), 1e-9);
@@ -159,53 +106,6 @@ TEST(FlightLoop, ASilentCommanderIsFlownNoLongerThanThreePeriods) {
   }
 }
 
-TEST(FlightLoop, WithoutSetpointsItKeepsLevelAtTheThrustOfHovering) {
-  Flight flight;
-  flight.reference = circle;
-  flight.vehicle.place(flat_state(circle(0.0)));
-  flight.fly_for(1.0);
-  ASSERT_GT(flight.vehicle.tilt(), 0.3);
-  flight.commander = false;
-  flight.fly_for(0.6);
-  const double height = flight.vehicle.p.z();
-  for (int k = 0; k < 2000; ++k) {
-    flight.step();
-    ASSERT_EQ(flight.output.behaviour, Behaviour::kStaleSetpoint);
-    ASSERT_LT(flight.vehicle.tilt(), 0.05);
-  }
-  const double weight = QuadrotorModel{}.mass * kGravity;
-  EXPECT_NEAR(flight.output.rotor_thrusts.sum(), weight, 0.01 * weight);
-  EXPECT_NEAR(flight.vehicle.p.z(), height, 1.0);
-  // A commander that comes back is followed again.
-  flight.commander = true;
-  flight.fly_for(0.02);
-  EXPECT_EQ(flight.output.behaviour, Behaviour::kTracking);
-}
-
-TEST(FlightLoop, WithoutEstimatesTheGyroscopeKeepsItUprightWhileItSinks) {
-  for (const Duration ahead : {Duration(0), Duration(std::chrono::hours(1))}) {
-    Flight flight;
-    flight.reference = circle;
-    flight.vehicle.place(flat_state(circle(0.0)));
-    flight.fly_for(1.0);
-    ASSERT_GT(flight.vehicle.tilt(), 0.3) << "the last estimate must not be level";
-    if (ahead > Duration(0)) {
-      flight.estimates_ahead = ahead;  // a clock that is wrong is as good as none
-      flight.fly_for(0.05);
-    }
-    flight.estimator = false;
-    flight.fly_for(0.06);
-    EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleEstimate);
-    flight.fly_for(0.6);
-    for (int k = 0; k < 2000; ++k) {
-      flight.step();
-      ASSERT_LT(flight.vehicle.tilt(), 0.05);
-    }
-    EXPECT_LT(flight.vehicle.v.z(), -0.5) << "sinks";
-    EXPECT_GT(flight.vehicle.v.z(), -5.0) << "does not fall";
-  }
-}
-
 /// The attitude flown with is the analytic one, wherever between two steps the estimate came.
 TEST(FlightLoop, CarriesTheAttitudeFromTheTimeOfTheEstimate) {
   const Vector3d w(1.5, -2.0, 0.5);
@@ -221,17 +121,13 @@ TEST(FlightLoop, CarriesTheAttitudeFromTheTimeOfTheEstimate) {
         state.q_WB = attitude(1e-3 * (ms - phase));
         loop.set_estimate(now - phase * kMillisecond, state);
         loop.set_setpoint({now, SetpointKind::kLevel, {}});
-        output = loop.step(now, w);
+        output = loop.step(now, {w, attitude(1e-3 * ms).conjugate() * Vector3d(0, 0, kGravity)});
       }
     }
-    RigidBodyState truth;
-    truth.q_WB = attitude(0.1);
-    truth.w_WB_B = w;
-    const Se3Controller controller({}, {});
-    const Vector4d expected =
-        Mixer(QuadrotorModel{}).mix(controller.level(truth, 0.95)).rotor_thrusts;
     ASSERT_EQ(output.behaviour, Behaviour::kLevel);
-    EXPECT_LT((output.rotor_thrusts - expected).norm(), 1e-9) << phase << " ms";
+    const Eigen::Quaterniond error = loop.state().q_WB.conjugate() * attitude(0.1);
+    EXPECT_LT(log_so3(error).norm(), 1e-9) << phase << " ms";
+    EXPECT_EQ(loop.state().w_WB_B, w);
   }
 }
 
@@ -261,15 +157,26 @@ TEST(FlightLoop, MotorsOffIsObeyedAtOnceWhateverElseTheSetpointSays) {
   off.time = flight.now;
   off.reference.position.x() = kNan;
   flight.loop.set_setpoint(off);
-  EXPECT_EQ(flight.loop.step(flight.now, Vector3d::Zero()).rotor_thrusts, Vector4d::Zero());
+  EXPECT_EQ(flight.loop.step(flight.now, at_rest()).rotor_thrusts, Vector4d::Zero());
 }
 
 TEST(FlightLoop, StampsOfAnotherClockAreNotFlown) {
   Flight flight;
   flight.stamps_ahead = std::chrono::seconds(1000);
   flight.fly_for(0.5);
-  EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleSetpoint);
+  EXPECT_EQ(flight.output.behaviour, Behaviour::kMotorsOff) << "and do not start the motors";
+  flight.vehicle.place({Vector3d(0, 0, 2)});
   flight.stamps_ahead = Duration(0);
+  flight.fly_for(0.5);
+  ASSERT_EQ(flight.output.behaviour, Behaviour::kTracking);
+  flight.stamps_ahead = std::chrono::seconds(1000);
+  flight.reference = [](double) { return hover_at(Vector3d(5, 0, 2)); };
+  flight.fly_for(0.5);
+  EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleSetpoint);
+  EXPECT_LT(flight.vehicle.p.x(), 0.05);
+  EXPECT_THAT(describe(flight.output), HasSubstr("another clock"));
+  flight.stamps_ahead = Duration(0);
+  flight.reference = [](double) { return hover_at(Vector3d(0, 0, 2)); };
   flight.estimates_ahead = -std::chrono::seconds(1);
   flight.fly_for(0.5);
   EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleEstimate);
@@ -283,7 +190,7 @@ TEST(FlightLoop, WhatIsNotFiniteIsAsIfItHadNotCome) {
   flight.fly_for(0.5);
   const Vector4d sound = flight.output.rotor_thrusts;
   // The gyroscope: the last good rate is kept.
-  const auto output = flight.loop.step(flight.now, Vector3d(kNan, 0, 0));
+  const auto output = flight.loop.step(flight.now, {Vector3d(kNan, 0, 0), flight.specific_force});
   EXPECT_LT((output.rotor_thrusts - sound).norm(), 1e-3);
   EXPECT_FALSE(output.tracking.input_refused);
   // The setpoint: stale after its timeout, in spite of the stream of broken ones.
@@ -295,10 +202,65 @@ TEST(FlightLoop, WhatIsNotFiniteIsAsIfItHadNotCome) {
   flight.fly_for(0.04);
   EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleSetpoint);
   // The estimate likewise.
-  flight.vehicle.p.x() = kNan;
-  for (int k = 0; k < 60; ++k) flight.step();
+  flight.reference = [](double) { return hover_at(Vector3d(0, 0, 2)); };
+  flight.estimate_offset.x() = kNan;
+  flight.fly_for(0.05);
+  EXPECT_EQ(flight.output.behaviour, Behaviour::kInertial);
+  flight.fly_for(0.25);
   EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleEstimate);
+  // And the sonar.
+  flight.loop.set_range_down(kNan);
+  flight.fly_for(0.1);
   EXPECT_TRUE(flight.output.rotor_thrusts.allFinite());
+}
+
+TEST(FlightLoop, OtherParametersDoNotDisturbTheFlight) {
+  Flight flight;
+  flight.vehicle.wind_force = Vector3d(0.8, 0, 0);
+  flight.fly_for(10.0);
+  FlightLoop::Params params = agile();
+  params.controller.integral_gain *= 3.0;
+  params.controller.max_tilt = 0.5;
+  const Vector4d before = flight.output.rotor_thrusts;
+  flight.loop.set_params(params);
+  for (int k = 0; k < 4; ++k) flight.step();
+  EXPECT_EQ(flight.output.behaviour, Behaviour::kTracking);
+  EXPECT_LT((flight.output.rotor_thrusts - before).norm(), 0.02)
+      << "the integral asks for the same";
+  // They are used.
+  params.controller.position_gain *= 0.5;
+  flight.loop.set_params(params);
+  flight.vehicle.p.y() += 0.1;
+  for (int k = 0; k < 8; ++k) flight.step();
+  EXPECT_NEAR(flight.output.tracking.wrench.thrust, flight.output.mixer.achieved.thrust, 0.05);
+  FlightLoop same = flight.loop;
+  const auto with = flight.loop.step(flight.now, at_rest());
+  params.controller.position_gain *= 2.0;
+  same.set_params(params);
+  EXPECT_GT((same.step(flight.now, at_rest()).rotor_thrusts - with.rotor_thrusts).norm(), 0.05);
+  // Those that cannot be flown with change nothing.
+  for (int which = 0; which < 3; ++which) {
+    FlightLoop::Params bad = params;
+    if (which == 0) bad.controller.max_tilt = kNan;
+    if (which == 1) bad.carry.max_gap = -1.0;
+    if (which == 2) bad.abandoned.timeout = 0.0;
+    bad.controller.position_gain *= 3.0;
+    FlightLoop untouched = flight.loop, tried = flight.loop;
+    EXPECT_THROW(tried.set_params(bad), std::invalid_argument);
+    EXPECT_EQ(tried.step(flight.now, at_rest()).rotor_thrusts,
+              untouched.step(flight.now, at_rest()).rotor_thrusts);
+  }
+}
+
+TEST(FlightLoop, ADeadCommanderStaysDeadWhenParametersChange) {
+  Flight flight;
+  flight.fly_for(0.5);
+  flight.commander = false;
+  flight.fly_for(0.1);
+  flight.loop.set_params(agile());
+  flight.fly_for(0.01);
+  EXPECT_EQ(flight.output.behaviour, Behaviour::kStaleSetpoint);
+  EXPECT_NEAR(flight.output.setpoint_age, 0.11, 0.011);
 }
 
 TEST(FlightLoop, UnusableParametersThrow) {
@@ -318,6 +280,15 @@ TEST(FlightLoop, UnusableParametersThrow) {
   EXPECT_TRUE(thrown([](P& p) { p.setpoint_timeout = 60.0; }));
   EXPECT_TRUE(thrown([](P& p) { p.estimate_timeout = 0.0; }));
   EXPECT_TRUE(thrown([](P& p) { p.sinking_thrust_to_weight = 1.5; }));
+  EXPECT_TRUE(thrown([](P& p) { p.inertial_timeout = 0.01; }));
+  EXPECT_TRUE(thrown([](P& p) { p.velocity_timeout = 0.1; }));
+  EXPECT_TRUE(thrown([](P& p) { p.landing_speed = -0.4; }));
+  EXPECT_TRUE(thrown([](P& p) { p.ground_time = kNan; }));
+  EXPECT_TRUE(thrown([](P& p) { p.sonar.ground_range = 0.0; }));
+  EXPECT_TRUE(thrown([](P& p) { p.merging.jerk = 0.0; }));
+  EXPECT_TRUE(thrown([](P& p) { p.carry.velocity_time_constant = 0.0; }));
+  EXPECT_TRUE(thrown([](P& p) { p.abandoned.braking.acceleration = kNan; }));
+  EXPECT_TRUE(thrown([](P& p) { p.abandoned.resistance = 0.5; }));
   EXPECT_TRUE(thrown([](P& p) { p.controller.max_tilt = kNan; }));
 }
 
