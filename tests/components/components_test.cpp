@@ -5,11 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <spdlog/sinks/ostream_sink.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <sstream>
 
 #include "tests/components/component_bench.hpp"
+#include "tests/control/vehicle_simulation.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -22,82 +27,186 @@ namespace setpoint_kind = swiftlet_msgs::msg::Setpoint_Constants;
 
 // --- flight_controller ---------------------------------------------------------------------
 
-double spread(const MotorCommand& motors) {
-  const auto& thrust = motors.thrust();
-  return *std::max_element(thrust.begin(), thrust.end()) -
-         *std::min_element(thrust.begin(), thrust.end());
-}
-
 double total(const MotorCommand& motors) {
   return std::accumulate(motors.thrust().begin(), motors.thrust().end(), 0.0);
 }
 
-/// A level vehicle that is asked to be 1 m further on: it pitches. One that keeps level does not.
-struct ControllerBench : Bench {
-  std::vector<MotorCommand>& motors;
+/// What a component logs, in lines.
+class LogOf {
+ public:
+  explicit LogOf(const std::string& component)
+      : logger_(logger(component)),
+        sink_(std::make_shared<spdlog::sinks::ostream_sink_mt>(text_, true)) {
+    sink_->set_pattern("%v");
+    logger_->sinks().push_back(sink_);
+  }
+  ~LogOf() { logger_->sinks().pop_back(); }
+  std::string text() const { return text_.str(); }
 
-  ControllerBench() : Bench("flight_controller"), motors(record(topic::motors)) {}
-  void send_setpoints(Time until, std::uint8_t kind = setpoint_kind::TRACK) {
-    every(
-        topic::setpoint, 10ms, Time{},
-        [kind](Time now) {
-          swiftlet_msgs::msg::Setpoint setpoint;
-          setpoint.header(make_header(now, frame::kMap));
-          setpoint.kind(kind);
-          setpoint.position(to_point({1, 0, 2}));
-          return setpoint;
-        },
-        until);
+ private:
+  std::ostringstream text_;
+  Logger logger_;
+  std::shared_ptr<spdlog::sinks::ostream_sink_mt> sink_;
+};
+
+/// The component flies a vehicle along x at 1 m/s and 1.25 m, until somebody goes silent.
+struct FlyingBench : Bench {
+  static constexpr double kFloor = 0.12;  // [m]
+  LogOf log{"flight_controller"};
+  Vehicle vehicle;
+  Rotors rotors{QuadrotorModel{}};
+  Eigen::Vector4d thrust = Eigen::Vector4d::Zero();
+  bool armed = false;
+  Time estimator_dies = Time::max(), commander_dies = Time::max();
+  Time commander_returns = Time::max();  // and says "motors off"
+  bool has_sonar = true;
+  std::vector<MotorCommand>& motors;
+  Publisher<sensor_msgs::msg::Imu> imu = probe.advertise(topic::imu0);
+  Publisher<nav_msgs::msg::Odometry> odometry = probe.advertise(topic::odometry);
+  Publisher<sensor_msgs::msg::Range> range = probe.advertise(topic::range_down);
+  Publisher<swiftlet_msgs::msg::Setpoint> setpoint = probe.advertise(topic::setpoint);
+
+  FlyingBench() : Bench("flight_controller"), motors(record(topic::motors)) {
+    vehicle.p = Vector3d(0, 0, 1.25);
+    vehicle.v = Vector3d(1, 0, 0);
+    probe.subscribe(topic::motors, [this](const MotorCommand& command) {
+      armed = command.armed();
+      std::copy_n(command.thrust().begin(), 4, thrust.data());
+    });
+    probe.every(1ms, [this](Time now) { step(now); });
+  }
+
+  void step(Time now) {
+    const std::int64_t ms = now.time_since_epoch() / 1ms;
+    const Vector3d before = vehicle.v;
+    if (ms > 20) vehicle.step(rotors.step(thrust, 1e-3), 1e-3);
+    if (ms <= 20) vehicle.p += 1e-3 * vehicle.v;  // until it is asked to fly
+    if (vehicle.p.z() < kFloor) {
+      vehicle.p.z() = kFloor;
+      vehicle.v.setZero();
+      vehicle.w.setZero();
+    }
+    sensor_msgs::msg::Imu sample;
+    sample.header(make_header(now, frame::kBody));
+    sample.angular_velocity(to_vector3(vehicle.w));
+    const Vector3d force = (vehicle.v - before) / 1e-3 + Vector3d(0, 0, kGravity);
+    sample.linear_acceleration(to_vector3(vehicle.R.transpose() * force));
+    imu.publish(sample);
+    if (ms % 4 == 0 && now < estimator_dies) odometry.publish(to_odometry(now, vehicle.state()));
+    if (ms % 50 == 0 && has_sonar) publish_range();
+    if (ms % 10 == 0) publish_setpoint(now);
+  }
+  void publish_range() {
+    sensor_msgs::msg::Range reading;
+    reading.range(static_cast<float>(std::max(0.15, vehicle.p.z() - 0.05)));
+    range.publish(reading);
+  }
+  void publish_setpoint(Time now) {
+    if (now >= commander_dies && now < commander_returns) return;
+    swiftlet_msgs::msg::Setpoint message;
+    message.header(make_header(now, frame::kMap));
+    message.kind(now < commander_dies ? setpoint_kind::TRACK : setpoint_kind::MOTORS_OFF);
+    message.position(to_point({to_seconds(now), 0, 1.25}));
+    message.velocity(to_vector3({1, 0, 0}));
+    setpoint.publish(message);
+  }
+
+  /// The first moment at which the rotors stand still after having turned; none if they turn.
+  std::optional<Time> stopped() const {
+    bool flew = false;
+    for (const MotorCommand& command : motors) {
+      if (flew && !command.armed()) return from_msg(command.stamp());
+      flew |= command.armed();
+    }
+    return std::nullopt;
   }
 };
 
-constexpr double kWeight = 0.9 * kGravity;
-
-TEST(FlightControllerComponent, RefusesASilentCommanderWithinThreePeriods) {
-  ControllerBench bench;
-  bench.send_odometry({0, 0, 2});
-  bench.send_imu();
-  bench.send_setpoints(Time(1s));  // the last one at 0.99 s
-  bench.run_until(Time(2s));
-  int tracking = 0, level = 0;
-  for (const MotorCommand& motors : bench.motors) {
-    const Time time = from_msg(motors.stamp());
-    if (time <= Time(10ms)) continue;  // not asked for anything yet
-    EXPECT_TRUE(motors.armed());
-    if (time <= Time(1020ms)) {
-      EXPECT_GT(spread(motors), 0.5) << "must follow its setpoints at " << to_seconds(time);
-      ++tracking;
-    } else {
-      EXPECT_LT(spread(motors), 1e-6) << "flies a stale setpoint at " << to_seconds(time);
-      EXPECT_NEAR(total(motors), kWeight, 1e-6);
-      ++level;
-    }
-  }
-  EXPECT_NEAR(tracking, 250, 5);
-  EXPECT_NEAR(level, 245, 5);
+TEST(FlightControllerComponent, ASilentCommanderLeavesABrakeAHoldAndALanding) {
+  FlyingBench bench;
+  bench.commander_dies = Time(2s);
+  double furthest = 0.0, height_at_3_s = 0.0;
+  bench.probe.every(10ms, [&](Time now) {
+    furthest = std::max(furthest, bench.vehicle.p.x());
+    if (now == Time(4900ms)) height_at_3_s = bench.vehicle.p.z();
+  });
+  bench.run_until(Time(12s));
+  EXPECT_LT(furthest - 1.99, 0.4) << "from the last setpoint on";
+  EXPECT_NEAR(height_at_3_s, 1.25, 0.03) << "holds for three seconds";
+  EXPECT_NEAR(bench.vehicle.p.z(), bench.kFloor, 1e-9);
+  ASSERT_TRUE(bench.stopped().has_value());
+  EXPECT_GT(*bench.stopped(), Time(7s)) << "1.1 m at 0.4 m/s";
+  EXPECT_FALSE(bench.armed);
+  EXPECT_THAT(bench.log.text(), HasSubstr("nobody sends setpoints for 0.03 s: braking"));
+  EXPECT_THAT(bench.log.text(), HasSubstr("abandoned for 3.0"));
+  EXPECT_THAT(bench.log.text(), HasSubstr("landed by itself: motors off"));
 }
 
-TEST(FlightControllerComponent, WithoutAFreshEstimateItSinksLevel) {
-  ControllerBench bench;
-  bench.send_odometry({0, 0, 2}, Time(1s));
-  bench.send_imu();
-  bench.send_setpoints(Time::max());
-  bench.run_until(Time(2s));
-  ASSERT_GT(spread(bench.motors[200]), 0.5);
-  const MotorCommand& last = bench.motors.back();
-  EXPECT_LT(spread(last), 1e-6);
-  EXPECT_NEAR(total(last), 0.95 * kWeight, 1e-6);
+TEST(FlightControllerComponent, ASilentEstimatorIsBridgedByTheImuAndThenItSinks) {
+  FlyingBench bench;
+  bench.estimator_dies = Time(2s);
+  double off_reference = 0.0, furthest = 0.0;
+  bench.probe.every(10ms, [&](Time now) {
+    const double x = bench.vehicle.p.x();
+    if (now < Time(2200ms)) off_reference = std::max(off_reference, std::abs(x - to_seconds(now)));
+    furthest = std::max(furthest, x);
+  });
+  bench.run_until(Time(8s));
+  EXPECT_LT(off_reference, 0.05) << "is not to be noticed for a quarter of a second";
+  EXPECT_LT(furthest - 2.25, 0.4) << "then it brakes";
+  EXPECT_NEAR(bench.vehicle.p.z(), bench.kFloor, 0.01);
+  EXPECT_THAT(bench.log.text(),
+              HasSubstr("no odometry for 0.03 s: carrying the state on with the IMU"));
+  EXPECT_THAT(bench.log.text(), HasSubstr("braking and sinking by the IMU"));
+  EXPECT_TRUE(bench.armed) << "there is a commander who stops the motors";
+}
+
+TEST(FlightControllerComponent, WithNeitherItStopsOnTheGroundIfThereIsASonar) {
+  for (const bool has_sonar : {true, false}) {
+    FlyingBench bench;
+    bench.has_sonar = has_sonar;
+    bench.estimator_dies = bench.commander_dies = Time(2s);
+    bench.run_until(Time(10s));
+    EXPECT_EQ(bench.armed, !has_sonar);
+    EXPECT_NEAR(bench.vehicle.p.z(), bench.kFloor, 0.01);
+    EXPECT_LT(bench.vehicle.p.x(), 2.4);
+  }
+}
+
+TEST(FlightControllerComponent, ACommanderWhoWasStartedAgainDoesNotStopItInTheAir) {
+  FlyingBench bench;
+  bench.commander_dies = Time(2s);
+  bench.commander_returns = Time(2500ms);
+  double height_when_stopped = 1e9;
+  bench.probe.every(1ms, [&](Time now) {
+    if (now > Time(2s) && !bench.armed) {
+      height_when_stopped = std::min(height_when_stopped, bench.vehicle.p.z());
+    }
+  });
+  bench.run_until(Time(12s));
+  EXPECT_LT(height_when_stopped, 0.14);
+  EXPECT_FALSE(bench.armed);
+  EXPECT_THAT(bench.log.text(), HasSubstr("\"motors off\" from a commander that was away"));
 }
 
 TEST(FlightControllerComponent, MotorsStandStillUntilTheyAreAskedFor) {
-  ControllerBench bench;
+  Bench bench("flight_controller");
+  auto& heard = bench.record(topic::motors);
   bench.send_odometry({0, 0, 0});
   bench.send_imu();
-  bench.send_setpoints(Time(500ms), setpoint_kind::MOTORS_OFF);
+  bench.every(
+      topic::setpoint, 10ms, Time{},
+      [](Time now) {
+        swiftlet_msgs::msg::Setpoint setpoint;
+        setpoint.header(make_header(now, frame::kMap));
+        setpoint.kind(setpoint_kind::MOTORS_OFF);
+        return setpoint;
+      },
+      Time(500ms));
   bench.run_until(Time(1s));
-  EXPECT_NEAR(static_cast<double>(bench.motors.size()), 250, 3)
+  EXPECT_NEAR(static_cast<double>(heard.size()), 250, 3)
       << "heard all the time, so that it can be armed";
-  for (const MotorCommand& motors : bench.motors) {
+  for (const MotorCommand& motors : heard) {
     EXPECT_FALSE(motors.armed());
     EXPECT_EQ(total(motors), 0.0);
   }
@@ -188,6 +297,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"estimator", "odometry_every: 0", "odometry_every"},
                       Mistake{"flight_controller", "max_tilt: 3.0", "max_tilt"},
                       Mistake{"flight_controller", "position_gain: [1, 2]", "position_gain"},
+                      Mistake{"flight_controller", "inertial_timeout: 0.01", "estimate_timeout"},
+                      Mistake{"flight_controller", "velocity_timeout: 0.1", "inertial_timeout"},
                       Mistake{"commander", "takeoff_speed: -1", "takeoff_speed"},
                       Mistake{"commander", "takeof_speed: 1", "takeoff_speed"},
                       Mistake{"planner", "max_speed: fast", "max_speed"}));
