@@ -135,7 +135,7 @@ TEST(InertialCarry, LearnsTheErrorsOfBothSensors) {
 }
 
 TEST(InertialCarry, TheObserverIsABetterStartThanTheLastOdometry) {
-  double with = 0.0, without = 0.0, untaught = 0.0;
+  double with = 0.0, without = 0.0, untaught = 0.0, velocity = 0.0;
   for (unsigned seed = 0; seed < 10; ++seed) {
     Learning learning;
     learning.random.seed(seed);
@@ -146,6 +146,9 @@ TEST(InertialCarry, TheObserverIsABetterStartThanTheLastOdometry) {
       return (run.carry.state().p_WB - run.motion.state(run.t).p_WB).norm();
     };
     with += error_after_3_s(learning, true) / 10.0;
+    InertialCarry observed = learning.carry;
+    observed.let_go();
+    velocity += (observed.state().v_WB_W - learning.motion.state(learning.t).v_WB_W).norm() / 10.0;
     without += error_after_3_s(learning, false) / 10.0;
     Learning fresh;
     fresh.random.seed(seed);
@@ -153,6 +156,7 @@ TEST(InertialCarry, TheObserverIsABetterStartThanTheLastOdometry) {
     untaught += error_after_3_s(fresh, true) / 10.0;
   }
   EXPECT_LT(with, 0.10);
+  EXPECT_LT(velocity, 0.010) << "odometry's is wrong by 0.03 m/s";
   EXPECT_GT(without, 1.5 * with);
   EXPECT_GT(untaught, 4.0 * with);
 }
