@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "components/bag/idl_schema.hpp"
 #include "components/bag/mcap/writer.hpp"
 #include "components/runtime/message.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 #include "nav_msgs.h"
 #include "sensor_msgs.h"
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "components/bag/idl_schema.hpp"
 #include "components/runtime/names.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 
 namespace swiftlet {
 namespace {

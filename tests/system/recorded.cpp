@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "components/bag/idl_schema.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 #include "components/bag/mcap/reader.hpp"
 #include "components/bag/mcap/writer.hpp"
 #include "components/conversions.hpp"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "all_messages.hpp"
-#include "components/bag/idl_schema.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 #include "components/bag/mcap/writer.hpp"
 #include "components/runtime/message.hpp"
 #include "tests/components/bag/node_decoder.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/reflection/idl_files.hpp"
 #include "estimation/basics/result.hpp"
 
 namespace swiftlet {
@@ -14,12 +15,8 @@ namespace swiftlet {
 /// `IDL: sensor_msgs/msg/Imu`, the type itself first. The IDL files are built into the library.
 Result<std::string> idl_schema(const std::string& type_name);
 
-/// The same for other IDL files, given by their contents. They may hold, inside
-/// `module package { module msg { ... } }`, structs, enums, typedefs and, for the constants of a
-/// struct `Name`, a module `Name_Constants`.
-Result<std::string> idl_schema(const std::string& type_name, const std::vector<std::string>& files);
-
-/// The names of all structs in idl/.
-const std::vector<std::string>& idl_type_names();
+/// The same for other IDL files. The constants of a struct `Name` stand in a module
+/// `Name_Constants` beside it, as rosidl writes them.
+Result<std::string> idl_schema(const std::string& type_name, const std::vector<IdlFile>& files);
 
 }  // namespace swiftlet
