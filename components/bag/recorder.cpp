@@ -57,15 +57,8 @@ std::vector<std::string> Recorder::missing() const {
 }
 
 void Recorder::look_for_topics() {
-  // Of several writers of a topic, the weakest offer is what all of them can keep.
-  std::map<std::string, Endpoint> found;
-  for (const Endpoint& endpoint : context().participant->graph().endpoints()) {
-    if (!endpoint.is_writer || recorded_.count(endpoint.topic) != 0) continue;
-    QosProfile& qos = found.emplace(endpoint.topic, endpoint).first->second.qos;
-    qos.reliable = qos.reliable && endpoint.qos.reliable;
-    qos.transient_local = qos.transient_local && endpoint.qos.transient_local;
-  }
-  for (const auto& [wire, endpoint] : found) {
+  for (const auto& [wire, endpoint] : weakest_offers(context().participant->graph().endpoints())) {
+    if (recorded_.count(wire) != 0) continue;
     const auto topic = topic_in_file(context().vehicle, wire);
     if (!topic) continue;
     const auto& wanted = params_.topics;

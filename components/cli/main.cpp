@@ -7,6 +7,7 @@
 #include "components/bag/bag_commands.hpp"
 #include "components/bag/live_commands.hpp"
 #include "components/cli/verbs.hpp"
+#include "components/introspection/introspection_commands.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
 #include "gcs/gcs_commands.hpp"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
+  swiftlet::add_topic_commands(app);
   swiftlet::add_component(app);
 
   try {

@@ -72,6 +72,17 @@ std::vector<Conflict> Graph::conflicts() const {
   return conflicts;
 }
 
+std::map<std::string, Endpoint> weakest_offers(const std::vector<Endpoint>& endpoints) {
+  std::map<std::string, Endpoint> offers;
+  for (const Endpoint& endpoint : endpoints) {
+    if (!endpoint.is_writer) continue;
+    QosProfile& qos = offers.emplace(endpoint.topic, endpoint).first->second.qos;
+    qos.reliable = qos.reliable && endpoint.qos.reliable;
+    qos.transient_local = qos.transient_local && endpoint.qos.transient_local;
+  }
+  return offers;
+}
+
 std::string describe(const Conflict& conflict) {
   return fmt::format("topic '{}' does not flow from writer {} to reader {}: {}",
                      conflict.writer.topic, name_of(conflict.writer), name_of(conflict.reader),

@@ -49,6 +49,10 @@ class Graph {
   std::map<std::string, Endpoint> endpoints_;  // by id
 };
 
+/// For each topic that is written, one of its writers, with the weakest quality of service that all
+/// of them offer: a reader that asks for no more hears every one.
+std::map<std::string, Endpoint> weakest_offers(const std::vector<Endpoint>& endpoints);
+
 /// "topic 'rt/imu0': writer 'sim' of swiftlet.12 and reader 'x' of swiftlet.13: reliability: ..."
 std::string describe(const Conflict& conflict);
 
