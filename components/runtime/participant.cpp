@@ -21,6 +21,7 @@
 
 #include "components/runtime/config.hpp"
 #include "components/runtime/discovery_listener.hpp"
+#include "components/runtime/gated_transport.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/wire_type.hpp"
 
@@ -56,7 +57,7 @@ constexpr int kUnicastPeers = 32;
 constexpr int kLastDomain = 232;
 constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
-dds::DomainParticipantQos participant_qos(const ParticipantOptions& options) {
+dds::DomainParticipantQos participant_qos(const ParticipantOptions& options, const Gate& gate) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(options.name);
 
@@ -68,7 +69,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options) {
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
+  qos.transport().user_transports.push_back(gated(udp, gate));
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   using eprosima::fastrtps::Duration_t;
@@ -140,9 +141,11 @@ class Participant::Impl {
         listener_(graph_) {
     bridge_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
-    participant_ =
-        factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
-                                    participant_qos(options), &listener_, dds::StatusMask::none());
+    const auto gate = std::make_shared<std::atomic<bool>>(false);
+    participant_ = factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
+                                               participant_qos(options, gate), &listener_,
+                                               dds::StatusMask::none());
+    gate->store(true);  // from here on it hears what others answer
     if (participant_ == nullptr) {
       throw RuntimeError(
           fmt::format("cannot join DDS domain {}: are its UDP ports in use, or is "

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/runtime/gated_transport.hpp"
+
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+
+#include <utility>
+
+namespace swiftlet {
+
+namespace transport = eprosima::fastdds::rtps;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+struct GatedDescriptor : transport::ChainingTransportDescriptor {
+  GatedDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> low_level,
+                  Gate gate_of_all)
+      : ChainingTransportDescriptor(std::move(low_level)), gate(std::move(gate_of_all)) {}
+
+  transport::TransportInterface* create_transport() const override;
+
+  Gate gate;
+};
+
+class GatedTransport : public transport::ChainingTransport {
+ public:
+  explicit GatedTransport(const GatedDescriptor& descriptor)
+      : ChainingTransport(descriptor), descriptor_(descriptor) {}
+
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+
+  bool send(rtps::SenderResource* sender, const rtps::octet* buffer, std::uint32_t size,
+            rtps::LocatorsIterator* destinations_begin, rtps::LocatorsIterator* destinations_end,
+            const std::chrono::steady_clock::time_point& timeout) override {
+    // As if it were lost on the way: RTPS repeats what matters.
+    if (!descriptor_.gate->load(std::memory_order_relaxed)) return true;
+    return sender->send(buffer, size, destinations_begin, destinations_end, timeout);
+  }
+
+  void receive(transport::TransportReceiverInterface* next, const rtps::octet* buffer,
+               std::uint32_t size, const rtps::Locator_t& local,
+               const rtps::Locator_t& remote) override {
+    next->OnDataReceived(buffer, size, local, remote);
+  }
+
+ private:
+  GatedDescriptor descriptor_;
+};
+
+transport::TransportInterface* GatedDescriptor::create_transport() const {
+  return new GatedTransport(*this);  // owned by who asks
+}
+
+}  // namespace
+
+std::shared_ptr<transport::TransportDescriptorInterface> gated(
+    std::shared_ptr<transport::TransportDescriptorInterface> transport, Gate gate) {
+  return std::make_shared<GatedDescriptor>(std::move(transport), std::move(gate));
+}
+
+}  // namespace swiftlet
