@@ -58,7 +58,9 @@ int main(int argc, char** argv) {
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
   swiftlet::add_topic_commands(app);
-  swiftlet::add_component(app);
+  swiftlet::add_component_commands(app);
+  swiftlet::add_param_commands(app);
+  swiftlet::add_doctor(app);
 
   try {
     app.parse(argc, argv);

@@ -52,7 +52,8 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "Host components on this machine");
-  verb->add_option("components", options->components, "See: swiftlet component list")->required();
+  verb->add_option("components", options->components, "See: swiftlet component list --available")
+      ->required();
   verb->add_option("--scenario", options->scenario, "Scenario file of the simulator and the pilot");
   verb->add_option(
           "--standby", options->standby,
@@ -63,16 +64,6 @@ void add_run(CLI::App& app) {
   options->network.add_to(*verb);
   verb->callback([options] {
     if (const int code = run(*options); code != 0) throw CLI::RuntimeError(code);
-  });
-}
-
-void add_component(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("component", "Components of this program");
-  verb->require_subcommand(1);
-  verb->add_subcommand("list", "Names and purposes")->callback([] {
-    for (const auto& entry : ComponentRegistry::instance().entries()) {
-      fmt::print("{:20} {}\n", entry.name, entry.summary);
-    }
   });
 }
 

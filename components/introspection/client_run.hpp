@@ -17,11 +17,10 @@ namespace swiftlet {
 /// gave up goes to the error stream; an exit code other than 0 is thrown, as verbs do.
 template <class Client, class Done, class... Args>
 void run_client(const NetworkOptions& network, const char* name, Done done, const Args&... args) {
-  const HostOptions options = network.host_options(name);
   // Conflicts between others are for those who ask for them: topic info and doctor.
   logger("graph")->set_level(spdlog::level::off);
-  Host host(options);
-  auto& client = host.emplace<Client>(name, options.participant.name, args...);
+  Host host(network.host_options(name));
+  auto& client = host.emplace<Client>(name, args...);
   int code = host.run();
   if (client.problem().empty()) {
     code = std::max(code, done(client, host.domain()));

@@ -12,8 +12,8 @@
 
 namespace swiftlet {
 
-Echo::Echo(const ComponentContext& context, const std::string& process, const EchoParams& params)
-    : TopicReader(context, process, params.topic), params_(params) {}
+Echo::Echo(const ComponentContext& context, const EchoParams& params)
+    : TopicReader(context, params.topic), params_(params) {}
 
 bool Echo::open(const TopicView& topic, const std::string& type) {
   type_ = params_.types->find(type);

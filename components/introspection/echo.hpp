@@ -23,7 +23,7 @@ struct EchoParams {
 /// Prints the messages of a topic.
 class Echo : public TopicReader {
  public:
-  Echo(const ComponentContext& context, const std::string& process, const EchoParams& params);
+  Echo(const ComponentContext& context, const EchoParams& params);
 
   int printed() const { return printed_; }
 

@@ -15,6 +15,8 @@
 namespace swiftlet {
 namespace {
 
+constexpr const char* kAnnouncer = "node_announcer";
+
 void clean(Endpoint& endpoint) {
   // rmw of ROS 2 puts "typehash=RIHS01_..." there.
   if (!check_name(endpoint.component).ok()) endpoint.component.clear();
@@ -36,7 +38,8 @@ void note_type(TopicView& topic, const Endpoint& endpoint) {
 
 GraphView view_of(const Graph& graph, const std::string& component, const std::string& process) {
   const auto is_own = [&](const Endpoint& endpoint) {
-    return endpoint.component == component && endpoint.participant == process;
+    return endpoint.participant == process &&
+           (endpoint.component == component || endpoint.component == kAnnouncer);
   };
   GraphView view;
   for (Endpoint& endpoint : graph.endpoints()) {
@@ -102,7 +105,7 @@ bool is_hidden(const std::string& wire_topic) {
   for (const char* prefix : {"rq/", "rr/", "rs/", "ra/", "rp/"}) {
     if (wire_topic.compare(0, 3, prefix) == 0) return true;
   }
-  return wire_topic == "ros_discovery_info";
+  return wire_topic == "ros_discovery_info" || wire_topic.find("/alive/") != std::string::npos;
 }
 
 std::string who(const Endpoint& endpoint) {

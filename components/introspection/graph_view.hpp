@@ -16,8 +16,8 @@ struct GraphView {
   std::vector<Conflict> conflicts;
 };
 
-/// Without what `component` of process `process` has in the graph itself. User data of other
-/// vendors' endpoints is no component's name.
+/// Without what `component` of process `process` and the announcer beside it have in the graph.
+/// User data of other vendors' endpoints is no component's name.
 GraphView view_of(const Graph& graph, const std::string& component, const std::string& process);
 
 /// Everything that is known of one topic.
@@ -38,7 +38,7 @@ std::vector<TopicView> topics_of(const GraphView& view, const std::string& vehic
 Result<TopicView> find_topic(const GraphView& view, const std::string& vehicle,
                              const std::string& name);
 
-/// What ROS 2 has for services, parameters and the graph itself.
+/// What ROS 2 has for services and its graph, and the signs of life of our components.
 bool is_hidden(const std::string& wire_topic);
 
 /// "planner of process planner.1234", "process rviz2" for what is not ours.

@@ -11,14 +11,14 @@ using namespace std::chrono_literals;
 
 constexpr Duration kTick = 10ms;
 /// Participants announce themselves every 50 ms at first; their ends follow at once.
-constexpr Duration kAtLeast = 250ms;
-constexpr Duration kQuiet = 150ms;
+constexpr Duration kAtLeast = 200ms;
+constexpr Duration kQuiet = 100ms;
 constexpr Duration kAtMost = 600ms;
 
 }  // namespace
 
-Observer::Observer(const ComponentContext& context, std::string process)
-    : Component(context), process_(std::move(process)), start_(now()), changed_(start_) {
+Observer::Observer(const ComponentContext& context)
+    : Component(context), start_(now()), changed_(start_) {
   every(kTick, [this](Time now) { look(now); });
 }
 

@@ -14,8 +14,7 @@ namespace swiftlet {
 /// within a second.
 class Observer : public Component {
  public:
-  /// `process` is the name of the participant that it runs in.
-  Observer(const ComponentContext& context, std::string process);
+  explicit Observer(const ComponentContext& context);
 
   /// Why it stopped without being done; "" where it did not.
   const std::string& problem() const { return problem_; }
@@ -27,8 +26,7 @@ class Observer : public Component {
   /// The graph is at rest.
   virtual void begin(const GraphView& view) = 0;
 
-  GraphView view() const { return view_of(graph(), name(), process_); }
-  const std::string& process() const { return process_; }
+  GraphView view() const { return view_of(graph(), name(), context().process); }
   /// Ends the run; `problem` is for the person who asked.
   void give_up(const std::string& problem, int exit_code = 1);
 
@@ -36,7 +34,6 @@ class Observer : public Component {
   const Graph& graph() const { return context().participant->graph(); }
   void look(Time now);
 
-  std::string process_;
   Time start_;
   Time changed_;
   std::size_t seen_ = 0;

@@ -47,8 +47,8 @@ struct InfoOptions {
 /// Finds one topic and stops.
 class TopicFinder : public Observer {
  public:
-  TopicFinder(const ComponentContext& context, const std::string& process, std::string topic)
-      : Observer(context, process), topic_(std::move(topic)) {}
+  TopicFinder(const ComponentContext& context, std::string topic)
+      : Observer(context), topic_(std::move(topic)) {}
   const TopicView& found() const { return found_; }
 
  private:

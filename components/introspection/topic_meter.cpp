@@ -18,9 +18,8 @@ constexpr Duration kPeriod = 1s;
 
 }  // namespace
 
-TopicMeter::TopicMeter(const ComponentContext& context, const std::string& process,
-                       const MeterParams& params)
-    : TopicReader(context, process, params.topic),
+TopicMeter::TopicMeter(const ComponentContext& context, const MeterParams& params)
+    : TopicReader(context, params.topic),
       params_(params),
       window_(static_cast<std::size_t>(params.window)) {
   every(kTick, [this](Time now) { print(now); });

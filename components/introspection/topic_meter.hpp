@@ -21,8 +21,7 @@ struct MeterParams {
 /// a second.
 class TopicMeter : public TopicReader {
  public:
-  TopicMeter(const ComponentContext& context, const std::string& process,
-             const MeterParams& params);
+  TopicMeter(const ComponentContext& context, const MeterParams& params);
 
  protected:
   void add(Time time, double value);

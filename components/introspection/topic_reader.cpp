@@ -19,9 +19,8 @@ constexpr Duration kSilence = 2s;
 
 }  // namespace
 
-TopicReader::TopicReader(const ComponentContext& context, const std::string& process,
-                         std::string topic)
-    : Observer(context, process), topic_(std::move(topic)) {}
+TopicReader::TopicReader(const ComponentContext& context, std::string topic)
+    : Observer(context), topic_(std::move(topic)) {}
 
 void TopicReader::begin(const GraphView& view) {
   const Result<TopicView> found = find_topic(view, vehicle(), topic_);

@@ -12,7 +12,7 @@ namespace swiftlet {
 /// that the writers offer, so that it hears them all. A topic that nobody writes ends the run.
 class TopicReader : public Observer {
  public:
-  TopicReader(const ComponentContext& context, const std::string& process, std::string topic);
+  TopicReader(const ComponentContext& context, std::string topic);
 
  protected:
   /// Before the first sample; `type` as on the wire. False where the topic is of no use.
