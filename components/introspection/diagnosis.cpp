@@ -69,7 +69,8 @@ std::string likely_topic(const TopicView& missed, const std::vector<TopicView>& 
   return nearest_word(missed.name, written);
 }
 
-void find_unwritten(const Evidence& evidence, Findings& findings) {
+std::set<std::string> find_unwritten(const Evidence& evidence, Findings& findings) {
+  std::set<std::string> names;
   const auto topics = topics_of(evidence.graph, evidence.vehicle);
   for (const TopicView& topic : topics) {
     if (!topic.writers.empty() || is_hidden(topic.wire) || is_written_on_demand(topic.wire)) {
@@ -88,10 +89,14 @@ void find_unwritten(const Evidence& evidence, Findings& findings) {
          likely.empty()
              ? "start the component that writes it"
              : fmt::format("'{}' is written: is --vehicle the same everywhere?", likely)});
+    names.insert(topic.name);
   }
+  return names;
 }
 
-void find_component_problems(const Evidence& evidence, Findings& findings) {
+/// Topics in `unwritten` have a finding already, which says more than their readers can.
+void find_component_problems(const Evidence& evidence, const std::set<std::string>& unwritten,
+                             Findings& findings) {
   std::map<std::string, std::vector<const Instance*>> active;
   for (const Instance& instance : evidence.instances) {
     const std::string name = instance.name(evidence.vehicle);
@@ -107,6 +112,7 @@ void find_component_problems(const Evidence& evidence, Findings& findings) {
       continue;
     }
     for (const std::string& problem : instance.problems) {
+      if (unwritten.count(problem.substr(0, problem.find(": nobody writes it"))) != 0) continue;
       findings.push_back({"problem", true, fmt::format("{}: {}", subject, problem),
                           fmt::format("see: swiftlet component info {}", name)});
     }
@@ -184,9 +190,9 @@ Findings diagnose(const Evidence& evidence) {
          "see: swiftlet topic list, without --vehicle"});
   }
   find_conflicts(evidence, findings);
-  find_component_problems(evidence, findings);
+  const std::set<std::string> unwritten = find_unwritten(evidence, findings);
+  find_component_problems(evidence, unwritten, findings);
   find_mute(evidence, findings);
-  find_unwritten(evidence, findings);
   find_unknown(evidence, findings);
   return findings;
 }
@@ -201,14 +207,17 @@ std::string findings_text(const Findings& findings, const Evidence& evidence) {
   }
   std::set<std::string> processes;
   std::size_t running = 0;
-  for (const Endpoint& end : evidence.graph.endpoints) processes.insert(end.participant);
+  std::set<std::string> topics;
+  for (const Endpoint& end : evidence.graph.endpoints) {
+    processes.insert(end.participant);
+    if (!is_hidden(end.topic)) topics.insert(end.topic);
+  }
   for (const Instance& instance : evidence.instances) running += instance.has_status ? 1 : 0;
   return text + fmt::format("{} ({} components, {} processes, {} topics)\n",
                             problems == 0   ? "healthy"
                             : problems == 1 ? "1 problem"
                                             : fmt::format("{} problems", problems),
-                            running, processes.size(),
-                            topics_of(evidence.graph, evidence.vehicle).size());
+                            running, processes.size(), topics.size());
 }
 
 nlohmann::ordered_json findings_json(const Findings& findings) {
