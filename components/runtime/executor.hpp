@@ -43,6 +43,8 @@ class Executor {
   virtual std::unique_ptr<Mailbox> make_mailbox(const std::string& component) = 0;
   /// The time of the clock that drives this run.
   virtual Time now() const = 0;
+  /// Whether that is a clock of discrete events, so that the same inputs give the same run.
+  virtual bool is_lockstep() const = 0;
   /// Runs until stop() or SIGINT or SIGTERM. Returns the exit code: that of stop(), 0 for a
   /// signal, and 1 where a component threw an exception (which is logged).
   virtual int run() = 0;

@@ -38,6 +38,7 @@ class LiveExecutor : public Executor {
   }
 
   Time now() const override { return time_at(Steady::now()); }
+  bool is_lockstep() const override { return false; }
 
   void stop(int exit_code) override {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -23,6 +23,7 @@ class LockstepExecutor : public Executor {
   }
 
   Time now() const override { return now_; }
+  bool is_lockstep() const override { return true; }
 
   void stop(int exit_code) override {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -116,6 +116,12 @@ EndpointGuid binary(const rtps::GUID_t& guid) {
   return bytes;
 }
 
+SampleOrigin origin_of(const dds::SampleInfo& info) {
+  return {binary(info.sample_identity.writer_guid()),
+          info.sample_identity.sequence_number().to64long(),
+          Time(Duration(info.source_timestamp.to_ns()))};
+}
+
 }  // namespace
 
 int domain_from_environment() {
@@ -312,7 +318,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
     // A sample without data says that a writer is gone; the next may have some.
     while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
-      if (origin != nullptr) origin->writer = binary(info.sample_identity.writer_guid());
+      if (origin != nullptr) *origin = origin_of(info);
       return true;
     }
     return false;

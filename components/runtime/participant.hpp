@@ -42,6 +42,9 @@ using EndpointGuid = std::array<std::uint8_t, 16>;
 /// Where one sample came from.
 struct SampleOrigin {
   EndpointGuid writer{};
+  /// Counts what the writer wrote, from 1 on: a gap is what did not arrive.
+  std::uint64_t sequence = 0;
+  Time written{};  ///< on the system clock of the writer's host, in lockstep too
 };
 
 /// Sends samples of one topic. Not for use by several threads at once.
