@@ -25,11 +25,6 @@ struct RecordOptions {
 };
 
 int record(const RecordOptions& options) {
-  for (const std::string& topic : options.recorder.topics) {
-    const bool has_slash = !topic.empty() && topic[0] == '/';
-    const Status name = check_name(topic.substr(has_slash ? 1 : 0));
-    if (!name.ok()) throw ConfigError("no topic has such a name: " + name.error().reason);
-  }
   RecorderParams params = options.recorder;
   params.file = options.file;
   Host host(options.network.host_options("bag_record"));
@@ -42,8 +37,8 @@ int record(const RecordOptions& options) {
     fmt::print(stderr, "error: {}\n", closed.error().reason);
     return 1;
   }
-  fmt::print("{}: {} messages of {} topics\n", options.file, recorder.statistics().message_count,
-             recorder.statistics().channel_count);
+  fmt::print("{}: {} messages of {} topics\n", options.file, recorder.progress().messages,
+             recorder.progress().topics);
   for (const std::string& topic : recorder.missing()) {
     fmt::print(stderr, "warning: nobody published the topic {}\n", topic);
   }

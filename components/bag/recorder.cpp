@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/bag/recorder.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "components/runtime/names.hpp"
 #include "components/runtime/reflection/idl_schema.hpp"
@@ -14,8 +16,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Samples of a topic that wait while the disk is slow: half a second of the fastest sensor.
+/// Samples of a topic that wait in DDS until their turn: half a second of the fastest sensor.
 constexpr int kDepth = 512;
+/// Of topics whose samples are large, so that what waits in DDS stays small, too.
+constexpr int kLargeDepth = 32;
+/// A crash costs at most what came since the last flush, and what still waits.
+constexpr Duration kFlushPeriod = 500ms;
 
 /// What a recording calls a topic; nothing where it is not of this vehicle.
 std::optional<std::string> topic_in_file(const std::string& vehicle, const std::string& wire) {
@@ -24,87 +30,309 @@ std::optional<std::string> topic_in_file(const std::string& vehicle, const std::
   return is_own ? std::make_optional(std::move(topic)) : std::nullopt;
 }
 
+/// What ROS 2 uses beneath its topics: who is there, and service calls.
+bool is_plumbing(const std::string& wire) {
+  if (wire == "ros_discovery_info") return true;
+  const std::string prefix = wire.substr(0, 3);
+  return prefix == "rq/" || prefix == "rr/" || prefix == "rs/";
+}
+
+bool has_large_samples(const std::string& ros_type) {
+  for (const char* part : {"Image", "PointCloud", "OccupancyGrid", "Frame"}) {
+    if (ros_type.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::map<std::string, std::string> run_metadata(const ComponentContext& context,
+                                                const RecorderParams& params) {
+  std::map<std::string, std::string> run = params.run;
+  run["start_ns"] = std::to_string(mcap::to_timestamp(context.executor->now()));
+  run["vehicle"] = context.vehicle;
+  run["domain"] = std::to_string(context.domain);
+  run["lockstep"] = context.executor->is_lockstep() ? "true" : "false";
+  run["version"] = SWIFTLET_VERSION;
+  return run;
+}
+
 }  // namespace
 
+/// Takes the samples of one topic, one each time it is its turn, so that samples of different
+/// topics are recorded in the order in which they arrived.
+class Recorder::TopicReader : public Task {
+ public:
+  TopicReader(Recorder& recorder, std::size_t topic, const EndpointSpec& spec)
+      : recorder_(recorder), topic_(topic) {
+    const auto note = [this, depth = spec.qos.depth] {
+      if (pending_.fetch_add(1) < depth) {
+        recorder_.mailbox().post(*this);
+      } else {
+        pending_.fetch_sub(1);
+      }
+    };
+    reader_ = recorder.context().participant->make_reader(spec, note);
+  }
+
+  void run() override {
+    pending_.fetch_sub(1);
+    Cdr cdr;
+    SampleOrigin origin;
+    if (!reader_->take(cdr, &origin)) return;
+    const std::uint64_t missing = watch_.missing_before(origin.writer, origin.sequence);
+    if (missing > 0) {
+      recorder_.losses_[recorder_.topics_[topic_].name].by_dds += missing;
+      recorder_.lost_by_dds_ += missing;
+    }
+    recorder_.keep(topic_, origin, std::move(cdr));
+  }
+
+ private:
+  Recorder& recorder_;
+  std::size_t topic_;
+  SequenceWatch watch_;
+  std::atomic<int> pending_{0};  // runs posted and not begun
+  std::unique_ptr<Reader> reader_;
+};
+
 Recorder::Recorder(const ComponentContext& context, const RecorderParams& params)
-    : Component(context), params_(params) {
-  mcap::WriterParams writer;
-  writer.profile = "ros2";
-  writer.overwrite = params.overwrite;
-  Result<mcap::Writer> opened = mcap::Writer::open(params.file, writer);
+    : Component(context),
+      params_(params),
+      selection_({params.topics, params.regexes, params.exclude}),
+      lockstep_(context.executor->is_lockstep()) {
+  writer_params_.file = params.file;
+  writer_params_.overwrite = params.overwrite;
+  writer_params_.compression = params.compression;
+  writer_params_.start = mcap::to_timestamp(now());
+  writer_params_.run = run_metadata(context, params);
+  open();
+  look_for_topics();
+  every(100ms, [this](Time) { tick(); });
+  every(kFlushPeriod, [this](Time) { flush(); });
+}
+
+Recorder::~Recorder() = default;
+
+void Recorder::open() {
+  const bool is_split = params_.split_size > 0 || params_.split_duration > Duration(0);
+  if (params_.window > Duration(0)) {
+    if (is_split) throw ConfigError("a window cannot be split: leave one of the two options out");
+    const auto folder = params_.file.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+      throw ConfigError(params_.file.string() + ": there is no folder " + folder.string());
+    }
+    // While one window is written, the next one is there beside it.
+    window_.emplace(params_.window, params_.max_memory / 2);
+    background_.emplace(params_.max_memory, [](const RecordedSample&) { return Status(); });
+    return;
+  }
+  RecordingWriterParams params = writer_params_;
+  params.split_size = params_.split_size;
+  params.split_duration = params_.split_duration;
+  auto opened = RecordingWriter::open(params);
   if (!opened.ok()) throw ConfigError(opened.error().reason);
   writer_.emplace(std::move(opened).value());
-  for (std::string& topic : params_.topics) {
-    if (topic[0] == '/') topic.erase(0, 1);
-  }
-  look_for_topics();
-  every(100ms, [this](Time) { look_for_topics(); });
-  every(1s, [this](Time) { check(writer_->flush()); });
+  background_.emplace(params_.max_memory,
+                      [this](const RecordedSample& sample) { return writer_->write(sample); });
 }
 
 Status Recorder::close() {
-  return writer_->close();
+  readers_.clear();
+  if (writer_ && files_.empty()) {
+    background_->post([this, losses = losses_, time = mcap::to_timestamp(now())] {
+      const Status noted = writer_->note(losses, time);
+      const Status closed = writer_->close();
+      return noted.ok() ? closed : noted;
+    });
+  }
+  const Status done = background_->drain();
+  if (writer_) {
+    if (!done.ok()) (void)writer_->close();
+    files_ = writer_->files();
+  }
+  return done.ok() ? save_failure_ : done;
+}
+
+Recorder::Progress Recorder::progress() const {
+  Progress progress;
+  progress.topics = topic_count_;
+  progress.messages = message_count_;
+  progress.bytes = byte_count_;
+  progress.queued_bytes = window_ ? window_bytes_.load() : background_->queued_bytes();
+  progress.lost_by_dds = lost_by_dds_;
+  progress.dropped = dropped_;
+  progress.saved = saved_;
+  return progress;
 }
 
 std::vector<std::string> Recorder::missing() const {
-  std::vector<std::string> missing;
-  for (const std::string& wanted : params_.topics) {
-    const bool found = std::any_of(recorded_.begin(), recorded_.end(),
-                                   [&](const auto& entry) { return entry.second == wanted; });
-    if (!found) missing.push_back(wanted);
-  }
-  return missing;
+  std::vector<std::string> names;
+  for (const RecordedTopic& topic : topics_) names.push_back(topic.name);
+  return selection_.missing(names);
 }
 
 void Recorder::look_for_topics() {
   for (const auto& [wire, endpoint] : weakest_offers(context().participant->graph().endpoints())) {
-    if (recorded_.count(wire) != 0) continue;
+    if (!known_.insert(wire).second) continue;
     const auto topic = topic_in_file(context().vehicle, wire);
-    if (!topic) continue;
-    const auto& wanted = params_.topics;
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), *topic) != wanted.end()) {
-      record(endpoint, *topic);
-    }
+    if (topic && !is_plumbing(wire) && selection_.wants(*topic)) record(endpoint, *topic);
   }
 }
 
-void Recorder::record(const Endpoint& endpoint, const std::string& topic) {
-  recorded_.emplace(endpoint.topic, topic);
-  const std::string type = ros_type_name(endpoint.type);
-  const auto idl = idl_schema(type);
-  if (!idl.ok()) {
+void Recorder::record(const Endpoint& endpoint, const std::string& name) {
+  RecordedTopic topic;
+  topic.name = name;
+  topic.type = ros_type_name(endpoint.type);
+  topic.latched = endpoint.qos.transient_local;
+  topic.metadata = {{"offered_qos_profiles", qos_metadata(endpoint.qos)}};
+  const auto idl = idl_schema(topic.type);
+  if (idl.ok()) {
+    topic.schema_encoding = "ros2idl";
+    topic.schema = *idl;
+  } else {
+    // MCAP's way to give a type's name alone is a schema without encoding.
     log()->warn("{} has the type {}, which this program does not know: recorded without its IDL",
-                topic, type);
+                name, topic.type);
   }
-  // MCAP's way to give a type's name alone is a schema without encoding.
-  const auto schema =
-      writer_->add_schema(type, idl.ok() ? "ros2idl" : "",
-                          idl.ok() ? mcap::ByteView(std::string_view(*idl)) : mcap::ByteView());
-  if (!schema.ok()) return check(schema.error());
-  const auto channel = writer_->add_channel(topic, "cdr", *schema,
-                                            {{"offered_qos_profiles", qos_metadata(endpoint.qos)}});
-  if (!channel.ok()) return check(channel.error());
+  if (writer_) background_->post([this, topic] { return writer_->add_topic(topic); });
   // Ask for no more than is offered.
   QosProfile qos = endpoint.qos;
-  qos.depth = std::max(qos.depth, kDepth);
-  subscribe_raw(endpoint.topic, endpoint.type, qos,
-                [this, id = *channel](const Cdr& cdr) { write(id, cdr); });
+  qos.depth = std::max(qos.depth, has_large_samples(topic.type) ? kLargeDepth : kDepth);
+  topics_.push_back(std::move(topic));
+  sequence_.push_back(0);
+  topic_count_ = topics_.size();
+  readers_.push_back(std::make_unique<TopicReader>(
+      *this, topics_.size() - 1,
+      EndpointSpec{endpoint.topic, endpoint.type, qos, Component::name(), nullptr}));
 }
 
-void Recorder::write(std::uint16_t channel, const Cdr& cdr) {
-  mcap::Message message;
-  message.channel_id = channel;
-  message.sequence = sequence_[channel]++;
-  message.log_time = mcap::to_timestamp(now());
-  message.publish_time = message.log_time;
-  message.data = cdr;
-  check(writer_->write(message));
+void Recorder::keep(std::size_t topic, const SampleOrigin& origin, Cdr cdr) {
+  ++message_count_;
+  byte_count_ += cdr.size();
+  RecordedSample sample;
+  sample.topic = topic;
+  sample.sequence = sequence_[topic];
+  sample.log_time = mcap::to_timestamp(now());
+  sample.publish_time = lockstep_ ? sample.log_time : mcap::to_timestamp(origin.written);
+  sample.writer = origin.writer;
+  sample.data = std::move(cdr);
+  if (window_) {
+    window_->add(std::move(sample), topics_[topic].latched);
+    window_bytes_ = window_->bytes();
+  } else if (lockstep_) {
+    background_->push(std::move(sample));
+  } else if (!background_->offer(std::move(sample))) {
+    ++losses_[topics_[topic].name].by_recorder;
+    ++dropped_;
+    return;
+  }
+  ++sequence_[topic];
+}
+
+void Recorder::tick() {
+  look_for_topics();
+  report_drops();
+  if (save_requested_.exchange(false)) save_window();
+  // In lockstep the moment at which the thread meets an error is not that of the run.
+  if (!lockstep_) check(background_->failure());
+}
+
+void Recorder::report_drops() {
+  if (window_) {
+    if (window_->is_cut_short() && !std::exchange(window_was_cut_, true)) {
+      log()->warn(
+          "the window is shorter than asked for: {} MB are full; raise --max-memory or "
+          "record fewer topics",
+          params_.max_memory / 2'000'000);
+    }
+    return;
+  }
+  const std::uint64_t drops = dropped_;
+  if (drops > seen_drops_) {
+    last_drop_ = now();
+    seen_drops_ = drops;
+    if (!std::exchange(dropping_, true)) {
+      log()->warn(
+          "samples are being dropped: {} MB wait to be written and more do not fit; is "
+          "the disk too slow?",
+          background_->queued_bytes() / 1'000'000);
+    }
+  } else if (dropping_ && now() - last_drop_ >= 1s) {
+    dropping_ = false;
+    log()->warn("no more samples are being dropped; it were {} since the last such line",
+                drops - std::exchange(reported_drops_, drops));
+  }
+}
+
+void Recorder::flush() {
+  const mcap::Timestamp time = mcap::to_timestamp(now());
+  if (window_) return window_->note(losses_, time);
+  background_->post([this, losses = losses_, time] {
+    const Status noted = writer_->note(losses, time);
+    return noted.ok() ? writer_->flush() : noted;
+  });
+  if (lockstep_) check(background_->drain());
+}
+
+void Recorder::save_window() {
+  if (!window_) return;
+  if (saving_.exchange(true)) {  // each holds the memory of its samples
+    log()->warn("the window before is still being saved; ask again when it is done");
+    return;
+  }
+  const mcap::Timestamp time = mcap::to_timestamp(now());
+  window_->note(losses_, time);
+  background_->post([this, file = window_file(params_.file, now()), topics = topics_,
+                     content = window_->content(time)] {
+    const auto written = write_window(content, file, topics);
+    if (written.ok()) {
+      log()->info("saved {}", *written);
+      files_.push_back(file);
+      ++saved_;
+    } else {
+      log()->error("the window was not saved: {}", written.error().reason);
+      save_failure_ = written.error();
+    }
+    saving_ = false;
+    return Status();  // the next one may find room on the disk
+  });
+}
+
+Result<std::string> Recorder::write_window(const SampleWindow::Content& content,
+                                           const std::filesystem::path& file,
+                                           const std::vector<RecordedTopic>& topics) {
+  RecordingWriterParams params = writer_params_;
+  params.file = file;
+  auto writer = RecordingWriter::open(params);
+  if (!writer.ok()) return writer.error();
+  for (const RecordedTopic& topic : topics) {
+    if (const Status added = writer->add_topic(topic); !added.ok()) return added.error();
+  }
+  Status done = writer->repeat(content.latched, content.begin);
+  for (const auto& sample : content.samples) {
+    if (done.ok()) done = writer->write(*sample);
+  }
+  const mcap::Timestamp end =
+      content.samples.empty() ? content.begin : content.samples.back()->log_time;
+  if (done.ok()) done = writer->note(content.losses, end);
+  if (done.ok()) done = writer->close();
+  if (!done.ok()) return done.error();
+  return fmt::format("{}: {} messages of {:.1f} s", file.string(), writer->messages(),
+                     1e-9 * static_cast<double>(end - content.begin));
 }
 
 void Recorder::check(const Status& status) {
-  if (status.ok()) return;
+  if (status.ok() || std::exchange(stopped_, true)) return;
   log()->error("recording stopped: {}", status.error().reason);
   stop(1);
+}
+
+std::filesystem::path window_file(const std::filesystem::path& file, Time time) {
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
+  const auto seconds = static_cast<std::time_t>(ms.count() / 1000);
+  const std::string name =
+      fmt::format("{}_{:%Y%m%dT%H%M%S}.{:03}Z{}", file.stem().string(), fmt::gmtime(seconds),
+                  ms.count() % 1000, file.extension().string());
+  return file.parent_path() / name;
 }
 
 std::string qos_metadata(const QosProfile& qos) {
