@@ -11,39 +11,10 @@
 #include "components/bag/bag_info.hpp"
 #include "components/bag/between.hpp"
 #include "components/bag/player.hpp"
-#include "components/bag/recorder.hpp"
 #include "components/runtime/command_line.hpp"
-#include "components/runtime/names.hpp"
 
 namespace swiftlet {
 namespace {
-
-struct RecordOptions {
-  RecorderParams recorder;
-  std::string file;
-  NetworkOptions network;
-};
-
-int record(const RecordOptions& options) {
-  RecorderParams params = options.recorder;
-  params.file = options.file;
-  Host host(options.network.host_options("bag_record"));
-  auto& recorder = host.emplace<Recorder>("recorder", params);
-  fmt::print("recording to {}; Ctrl-C ends it\n", options.file);
-  std::fflush(stdout);
-  const int exit_code = host.run();
-  const Status closed = recorder.close();
-  if (!closed.ok()) {
-    fmt::print(stderr, "error: {}\n", closed.error().reason);
-    return 1;
-  }
-  fmt::print("{}: {} messages of {} topics\n", options.file, recorder.progress().messages,
-             recorder.progress().topics);
-  for (const std::string& topic : recorder.missing()) {
-    fmt::print(stderr, "warning: nobody published the topic {}\n", topic);
-  }
-  return exit_code;
-}
 
 struct PlayOptions {
   std::string file;
@@ -103,16 +74,7 @@ int play(const PlayOptions& options) {
 }  // namespace
 
 void add_live_bag_commands(CLI::App& bag) {
-  auto record_options = std::make_shared<RecordOptions>();
-  CLI::App* record_verb = bag.add_subcommand("record", "Record topics into an MCAP file");
-  record_verb->add_option("-o,--output", record_options->file, "MCAP file to write")->required();
-  record_verb->add_option("topics", record_options->recorder.topics, "Topics; else all");
-  record_verb->add_flag("--overwrite", record_options->recorder.overwrite,
-                        "Replace the file where it exists");
-  record_options->network.add_to(*record_verb);
-  record_verb->callback([record_options] {
-    if (const int code = record(*record_options); code != 0) throw CLI::RuntimeError(code);
-  });
+  add_record_command(bag);
 
   auto play_options = std::make_shared<PlayOptions>();
   CLI::App* play_verb = bag.add_subcommand("play", "Publish what was recorded");
