@@ -12,16 +12,9 @@
 #include "components/bag/latched_samples.hpp"
 #include "components/bag/loss_ledger.hpp"
 #include "components/bag/mcap/writer.hpp"
+#include "components/bag/recording_records.hpp"
 
 namespace swiftlet {
-
-/// Name of the metadata record about the run, first in each file.
-inline constexpr const char* kRunRecord = "swiftlet_run";
-/// Name of the metadata record of a file that begins with repeated samples: "part" with its place
-/// among the files of a split recording, and "repeated/<topic>" with the sequence numbers of the
-/// samples from before its beginning. Whoever reads the files as one leaves those out.
-inline constexpr const char* kPartRecord = "swiftlet_part";
-inline constexpr const char* kRepeatedKey = "repeated/";
 
 struct RecordingWriterParams {
   std::filesystem::path file;
