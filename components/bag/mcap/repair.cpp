@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/bag/mcap/repair.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -38,13 +39,20 @@ class Rewriter {
     }
     const Metadata notes{record,
                          {{"lost_chunks", std::to_string(found_.lost_chunks)},
-                          {"lost_messages", std::to_string(found_.lost_messages + undescribed_)},
+                          {"lost_messages", std::to_string(lost_messages())},
                           {"skipped_bytes", std::to_string(found_.skipped_bytes)}}};
     if (const Status written = writer_->write(notes); !written.ok()) return written;
     return writer_->close();
   }
 
   const Statistics& statistics() const { return writer_->statistics(); }
+  /// Those that are known by number: of damaged chunks with indexes, of channels that nothing
+  /// describes, or of the file's own count.
+  std::uint64_t lost_messages() const {
+    const std::uint64_t known = found_.lost_messages + undescribed_;
+    const std::uint64_t saved = statistics().message_count;
+    return std::max(known, found_.counted.value_or(0) - std::min(found_.counted.value_or(0), saved));
+  }
   /// Messages of channels that nothing describes.
   std::uint64_t undescribed() const { return undescribed_; }
 
@@ -139,12 +147,17 @@ Result<Repair> repair(const ByteSource& source, const std::filesystem::path& out
   Repair repair;
   repair.saved = rewriter.statistics();
   repair.lost_chunks = found->lost_chunks;
-  repair.lost_messages = found->lost_messages + rewriter.undescribed();
+  repair.lost_messages = rewriter.lost_messages();
   repair.skipped_bytes = found->skipped_bytes;
   repair.problems = std::move(found->problems);
   if (rewriter.undescribed() > 0) {
     repair.problems.push_back(source.name() + ": " + std::to_string(rewriter.undescribed()) +
                               " messages are lost, because nothing describes their channels");
+  }
+  if (repair.lost_messages > found->lost_messages + rewriter.undescribed()) {
+    repair.problems.push_back(source.name() + ": its statistics count " +
+                              std::to_string(*found->counted) + " messages, and " +
+                              std::to_string(repair.saved.message_count) + " could be saved");
   }
   return repair;
 }

@@ -32,11 +32,27 @@ class Salvager {
     }
     while (position < source_.size() && !is_magic(position)) position = take(position);
     close_lost_chunk();
+    leave_out_loose_messages();
     if (!header.ok() && found_.records.empty()) return header.error();
     return std::move(found_);
   }
 
  private:
+  void leave_out_loose_messages() {
+    auto& records = found_.records;
+    const auto is = [](Opcode opcode) {
+      return [opcode](const RawRecord& record) { return record.opcode == opcode; };
+    };
+    if (std::none_of(records.begin(), records.end(), is(Opcode::kChunk))) return;
+    const auto loose = std::find_if(records.begin(), records.end(), is(Opcode::kMessage));
+    if (loose == records.end()) return;
+    problem(error_at(source_, loose->offset,
+                     "messages outside of chunks, in a file that has chunks, are left out: nothing "
+                     "says that they are sound")
+                .reason);
+    records.erase(std::remove_if(loose, records.end(), is(Opcode::kMessage)), records.end());
+  }
+
   /// The magic bytes at the end of a file, and nothing behind them.
   bool is_magic(std::uint64_t position) {
     if (source_.size() - position != sizeof(kMagic)) return false;
@@ -93,8 +109,10 @@ class Salvager {
       case Opcode::kChunk:
         return take_chunk(record);
       case Opcode::kMessageIndex:
-        return decoded<MessageIndex>(stream, record, [this](const MessageIndex& index) {
-          if (lost_chunk_) lost_counts_[index.channel_id] += index.records.size();
+        return take_message_index(stream, record);
+      case Opcode::kStatistics:
+        return decoded<Statistics>(stream, record, [this](const Statistics& statistics) {
+          found_.counted = statistics.message_count;
         });
       default:
         return take_other(record);
@@ -109,12 +127,22 @@ class Salvager {
     return {};
   }
 
+  Status take_message_index(const RecordStream& stream, const RawRecord& record) {
+    constexpr std::uint64_t kFixed = 6, kEntry = 16;
+    MessageIndex index;
+    if (const Status done = stream.decode_into(record, index, content_); !done.ok()) return done;
+    // A chunk with a changed opcode would pass for an index with something behind it.
+    if (record.length != kFixed + kEntry * index.records.size()) return stream.malformed(record);
+    if (lost_chunk_) lost_counts_[index.channel_id] += index.records.size();
+    return {};
+  }
+
   /// Indexes, which are made anew, and what only later versions of the format know.
   Status take_other(const RawRecord& record) {
-    constexpr std::uint64_t kDataEndLength = 4, kFooterLength = 20;
-    const bool right_length =
-        (record.opcode != Opcode::kDataEnd || record.length == kDataEndLength) &&
-        (record.opcode != Opcode::kFooter || record.length == kFooterLength);
+    static const std::map<Opcode, std::uint64_t> kLengths = {
+        {Opcode::kDataEnd, 4}, {Opcode::kFooter, 20}, {Opcode::kSummaryOffset, 17}};
+    const auto length = kLengths.find(record.opcode);
+    const bool right_length = length == kLengths.end() || length->second == record.length;
     if (right_length && record.opcode > Opcode::kHeader && record.opcode <= Opcode::kDataEnd) {
       return {};
     }
