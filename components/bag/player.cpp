@@ -7,7 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "components/conversions.hpp"
 #include "components/runtime/names.hpp"
+#include "components/topics.hpp"
 
 namespace swiftlet {
 namespace {
@@ -19,29 +21,75 @@ constexpr Duration kLoopPause = 1ms;
 /// After the last message, so that periodic work sees the end before the run is over.
 constexpr Duration kAfterEnd = 1s;
 constexpr int kMaxDepth = 1000;
+constexpr double kSlowest = 1e-3, kFastest = 1e3;
 
 bool contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-/// Names in rosbag2 files begin with a slash, ours do not.
-std::string without_slash(const std::string& topic) {
-  return !topic.empty() && topic[0] == '/' ? topic.substr(1) : topic;
-}
-
 }  // namespace
 
-Player::Player(const ComponentContext& context, const mcap::Reader& reader,
+Time Player::Pace::due(Time recorded) const {
+  const Duration elapsed = recorded - recording;
+  return run + (rate == 1.0 ? elapsed : from_seconds(to_seconds(elapsed) / rate));
+}
+
+Time Player::Pace::position(Time now) const {
+  if (paused || now <= run) return recording;
+  return recording + (rate == 1.0 ? now - run : from_seconds(to_seconds(now - run) * rate));
+}
+
+void Player::Wishes::add(std::function<void()> wish) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wishes_.push_back(std::move(wish));
+  }
+  player_.mailbox().post(*this);
+}
+
+void Player::Wishes::run() {
+  std::function<void()> wish;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wish = std::move(wishes_.front());
+    wishes_.pop_front();
+  }
+  if (player_.begun_) wish();
+}
+
+Player::Player(const ComponentContext& context, const Recording& recording,
                const PlayerParams& params)
-    : Component(context), params_(params), reader_(reader) {
-  for (std::string& topic : params_.topics) topic = without_slash(topic);
-  for (const auto& [id, channel] : reader_.channels()) {
-    const std::string topic = without_slash(channel.topic);
-    const std::string wire = wire_topic(context.vehicle, topic);
-    const bool wanted = params_.topics.empty() || contains(params_.topics, topic);
-    if (!wanted || contains(params_.except, wire)) continue;
-    const auto schema = reader_.schemas().find(channel.schema_id);
-    if (channel.message_encoding != "cdr" || schema == reader_.schemas().end()) {
+    : Component(context),
+      params_(params),
+      selection_({params.topics, {}, params.exclude}),
+      recording_(recording),
+      begin_(mcap::to_time(recording.statistics().message_start_time)),
+      end_(mcap::to_time(recording.statistics().message_end_time)) {
+  first_ = begin_ + params_.start;
+  pace_.recording = first_;
+  pace_.rate = params_.rate;
+  pace_.paused = true;  // until it begins
+  offer_topics();
+  if (params_.clock_hz > 0.0) {
+    clock_ = advertise(topic::clock);
+    every(from_seconds(1.0 / params_.clock_hz), [this](Time now) { publish_clock(now); });
+  }
+  if (writers_.empty() && !params_.stop_at_end) return;
+  go_to(first_);
+  call_at(now() + params_.delay, [this](Time now) { begin(now); });
+}
+
+void Player::offer_topics() {
+  for (const auto& [id, channel] : recording_.channels()) {
+    const std::string recorded = without_slash(channel.topic);
+    const auto renamed = params_.remap.find(recorded);
+    const std::string topic = renamed == params_.remap.end() ? recorded : renamed->second;
+    const std::string wire = wire_topic(context().vehicle, topic);
+    // Of two clocks, only one can be right.
+    const bool is_clock = params_.clock_hz > 0.0 && topic == topic::clock.name;
+    if (!selection_.wants(recorded) || contains(params_.except, wire) || is_clock) continue;
+    const auto schema = recording_.schemas().find(channel.schema_id);
+    if (channel.message_encoding != "cdr" || schema == recording_.schemas().end()) {
       log()->warn("topic '{}' is not played: it is not CDR of a named type", channel.topic);
     } else if (const Status name = check_name(topic); !name.ok()) {
       log()->warn("topic '{}' is not played: {}", channel.topic, name.error().reason);
@@ -49,13 +97,6 @@ Player::Player(const ComponentContext& context, const mcap::Reader& reader,
       offer(channel, wire, dds_type_name(schema->second.name));
     }
   }
-  if (writers_.empty() && !params_.stop_at_end) return;
-  first_ = mcap::to_time(reader_.statistics().message_start_time) + params_.start;
-  rewind();
-  call_at(now() + params_.delay, [this](Time now) {
-    if (params_.start > Duration(0)) play_latched();
-    play(now);
-  });
 }
 
 void Player::offer(const mcap::Channel& channel, const std::string& wire, const std::string& type) {
@@ -65,16 +106,24 @@ void Player::offer(const mcap::Channel& channel, const std::string& wire, const 
                 ros_type_name(type), ros_type_name(used));
     return;
   }
-  const QosProfile qos = qos_of(channel);
+  const auto wanted = params_.qos.find(without_slash(channel.topic));
+  QosProfile qos = wanted == params_.qos.end() ? qos_of(channel) : wanted->second;
+  qos.large = true;  // nothing says how large the samples are
   writers_[channel.id] = advertise_raw(wire, type, qos);
-  if (qos.transient_local) latched_.push_back(channel.topic);
+  if (qos.transient_local) latched_[channel.topic] = qos.depth;
 }
 
-void Player::rewind() {
+void Player::begin(Time now) {
+  begun_ = true;
+  if (params_.start > Duration(0)) play_latched();
+  set_pace({now, first_, params_.rate, false});
+  play(now);
+}
+
+void Player::go_to(Time position) {
   mcap::Filter filter;
-  filter.first = mcap::to_timestamp(first_);
-  cursor_.emplace(reader_.messages(filter));
-  origin_.reset();
+  filter.first = mcap::to_timestamp(position);
+  cursor_.emplace(recording_.messages(filter));
   fetch();
 }
 
@@ -91,52 +140,127 @@ void Player::fetch() {
   }
 }
 
-Time Player::due(Time now) const {
-  const Duration elapsed = mcap::to_time(next_->message.log_time) - first_;
-  if (params_.rate == 1.0) return *origin_ + elapsed;
-  return std::max(now, *origin_ + from_seconds(to_seconds(elapsed) / params_.rate));
-}
-
 void Player::publish(const mcap::MessageView& view) {
   const mcap::ByteView data = view.message.data;
   writers_[view.channel->id]->write(data.copy());
   ++played_;
 }
 
+void Player::publish_clock(Time now) {
+  rosgraph_msgs::msg::Clock message;
+  message.clock(make_header(position(now), "").stamp());
+  clock_.publish(message);
+}
+
 void Player::play_latched() {
-  if (latched_.empty() || mcap::to_timestamp(first_) == 0) return;
+  const mcap::Timestamp position = mcap::to_timestamp(pace().recording);
+  if (latched_.empty() || position == 0) return;
   mcap::Filter filter;
-  filter.topics = latched_;
-  filter.last = mcap::to_timestamp(first_) - 1;
-  std::map<std::uint16_t, Cdr> last;
-  auto cursor = reader_.messages(filter);
+  for (const auto& [topic, depth] : latched_) filter.topics.push_back(topic);
+  filter.last = position - 1;
+  std::map<std::uint16_t, std::deque<Cdr>> last;
+  auto cursor = recording_.messages(filter);
   for (;;) {
     const auto next = cursor.next();
     if (!next.ok()) continue;
     if (!*next) break;
-    last[(*next)->channel->id] = (*next)->message.data.copy();
+    std::deque<Cdr>& kept = last[(*next)->channel->id];
+    kept.push_back((*next)->message.data.copy());
+    const auto depth = static_cast<std::size_t>(latched_[(*next)->channel->topic]);
+    if (kept.size() > depth) kept.pop_front();
   }
-  for (const auto& [channel, cdr] : last) {
-    if (writers_.count(channel) != 0) writers_[channel]->write(cdr);
+  for (const auto& [channel, samples] : last) {
+    if (writers_.count(channel) == 0) continue;
+    for (const Cdr& cdr : samples) writers_[channel]->write(cdr);
   }
 }
 
+void Player::schedule(Time when) {
+  call_at(when, [this, made = ++schedule_](Time now) {
+    if (made == schedule_) play(now);
+  });
+}
+
 void Player::play(Time now) {
-  if (!origin_) origin_ = now;
-  if (next_ && due(now) <= now) {
+  const Pace pace = this->pace();
+  if (pace.paused) return;
+  if (next_ && pace.due(mcap::to_time(next_->message.log_time)) <= now) {
     publish(*next_);
     fetch();
   }
   if (next_) {
     // One of the same moment waits for its own timer: what the last one set off goes first, as
     // when it was recorded.
-    call_at(std::max(now, due(now)), [this](Time later) { play(later); });
+    schedule(std::max(now, pace.due(mcap::to_time(next_->message.log_time))));
   } else if (params_.loop && played_ > 0) {
-    rewind();
-    call_at(now + kLoopPause, [this](Time later) { play(later); });
+    go_to(first_);
+    set_pace({now + kLoopPause, first_, pace.rate, false});
+    schedule(now + kLoopPause);
   } else if (params_.stop_at_end) {
-    call_at(now + kAfterEnd, [this](Time) { stop(0); });
+    call_at(now + kAfterEnd, [this, made = ++schedule_](Time) {
+      if (made == schedule_) stop(0);
+    });
   }
+}
+
+void Player::pause_or_resume() {
+  wishes_.add([this] {
+    const Time now = this->now();
+    set_pace({now, position(now), pace().rate, !pace().paused});
+    schedule(now);
+  });
+}
+
+void Player::step() {
+  wishes_.add([this] {
+    const Time now = this->now();
+    Time reached = position(now);
+    if (next_) {
+      reached = mcap::to_time(next_->message.log_time);
+      publish(*next_);
+      fetch();
+    }
+    set_pace({now, reached, pace().rate, true});
+  });
+}
+
+void Player::seek(Duration by) {
+  wishes_.add([this, by] {
+    const Time now = this->now();
+    const Time target = std::clamp(position(now) + by, begin_, end_);
+    set_pace({now, target, pace().rate, pace().paused});
+    go_to(target);
+    play_latched();
+    schedule(now);
+  });
+}
+
+void Player::scale_rate(double factor) {
+  wishes_.add([this, factor] {
+    const Time now = this->now();
+    const Pace old = pace();
+    set_pace({now, position(now), std::clamp(old.rate * factor, kSlowest, kFastest), old.paused});
+    schedule(now);
+  });
+}
+
+Player::Pace Player::pace() const {
+  const std::lock_guard<std::mutex> lock(pace_mutex_);
+  return pace_;
+}
+
+void Player::set_pace(const Pace& pace) {
+  const std::lock_guard<std::mutex> lock(pace_mutex_);
+  pace_ = pace;
+}
+
+Time Player::position(Time now) const {
+  return std::min(pace().position(now), std::max(end_, first_));
+}
+
+Player::Progress Player::progress() const {
+  const Pace now_pace = pace();
+  return {position(now()) - begin_, end_ - begin_, now_pace.rate, now_pace.paused, played_};
 }
 
 QosProfile qos_of(const mcap::Channel& channel) {

@@ -2,24 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <deque>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "components/bag/mcap/reader.hpp"
+#include "components/bag/recording.hpp"
+#include "components/bag/topic_selection.hpp"
 #include "components/runtime/component.hpp"
+#include "rosgraph_msgs.h"
 
 namespace swiftlet {
 
 struct PlayerParams {
-  std::vector<std::string> topics;  ///< as in the recording, leading '/' or not; empty: all
+  std::vector<std::string> topics;  ///< as in TopicPatterns, by recorded names; empty: all
   std::vector<std::string> except;  ///< as on the wire
   double rate = 1.0;                ///< of the recording's time per time
   Duration start{0};                ///< skip so much of the recording
   Duration delay{0};                ///< before the first message, for others to find the topics
   bool loop = false;
-  bool stop_at_end = true;  ///< end the run
+  bool stop_at_end = true;                     ///< end the run
+  std::vector<std::string> exclude{};          ///< as in TopicPatterns, by recorded names
+  std::map<std::string, std::string> remap{};  ///< new names, by recorded ones
+  std::map<std::string, QosProfile> qos{};     ///< instead of the recorded one, by recorded name
+  double clock_hz = 0.0;  ///< publish the time of the recording on `clock`; 0: do not
 };
 
 /// Publishes the messages of a recording as far apart in time as they were recorded, divided by
@@ -32,32 +41,89 @@ struct PlayerParams {
 /// with a warning. A damaged chunk costs its own messages.
 class Player : public Component {
  public:
-  Player(const ComponentContext& context, const mcap::Reader& reader, const PlayerParams& params);
+  Player(const ComponentContext& context, const Recording& recording, const PlayerParams& params);
 
   std::size_t channels() const { return writers_.size(); }
   std::uint64_t played() const { return played_; }
   /// Chunks that could not be read.
   std::uint64_t damaged_chunks() const { return damaged_chunks_; }
 
+  // Wishes of somebody who watches, from any thread. They are heard at the next moment.
+  void pause_or_resume();
+  /// The next message now, then pause.
+  void step();
+  /// Forward or back, as with `start`.
+  void seek(Duration by);
+  /// Faster or slower.
+  void scale_rate(double factor);
+
+  /// How it goes. From any thread.
+  struct Progress {
+    Duration position{0};  ///< from the start of the recording
+    Duration length{0};    ///< of the recording
+    double rate = 1.0;
+    bool paused = false;
+    std::uint64_t played = 0;
+  };
+  Progress progress() const;
+
  private:
+  /// How the recording's time follows the run's.
+  struct Pace {
+    Time run{};        // at which
+    Time recording{};  // this time of the recording is due
+    double rate = 1.0;
+    bool paused = false;
+
+    Time due(Time recorded) const;
+    Time position(Time now) const;
+  };
+  /// Wakes the component for a wish.
+  class Wishes : public Task {
+   public:
+    explicit Wishes(Player& player) : player_(player) {}
+    void add(std::function<void()> wish);
+    void run() override;
+
+   private:
+    Player& player_;
+    std::mutex mutex_;
+    std::deque<std::function<void()>> wishes_;
+  };
+
+  void offer_topics();
   void offer(const mcap::Channel& channel, const std::string& wire, const std::string& type);
-  void rewind();
+  void go_to(Time position);
   void fetch();
   void play(Time now);
+  /// Calls play() when the next message is due, and no more for what was scheduled before.
+  void schedule(Time when);
   void play_latched();
   void publish(const mcap::MessageView& view);
-  Time due(Time now) const;
+  void publish_clock(Time now);
+  void begin(Time now);
+  Pace pace() const;
+  void set_pace(const Pace& pace);
+  Time position(Time now) const;
 
   PlayerParams params_;
-  mcap::Reader reader_;
+  TopicSelection selection_;
+  Recording recording_;
+  Wishes wishes_{*this};
   std::map<std::uint16_t, std::shared_ptr<Writer>> writers_;  // by channel
   std::map<std::string, std::string> types_;                  // by topic, both as on the wire
-  std::vector<std::string> latched_;                          // topics for late readers
-  std::optional<mcap::MessageCursor> cursor_;
+  std::map<std::string, int> latched_;  // depth of topics for late readers, by recorded name
+  Publisher<rosgraph_msgs::msg::Clock> clock_;
+  std::optional<RecordingCursor> cursor_;
   std::optional<mcap::MessageView> next_;
-  std::optional<Time> origin_;  // of this run: when the recording's first_ is due
-  Time first_{};                // of the recording
-  std::uint64_t played_ = 0;
+  bool begun_ = false;
+  std::uint64_t schedule_ = 0;  // which of those that were made is to be kept
+  Time first_{};                // of the recording, from which is played
+  Time begin_{};                // of the recording
+  Time end_{};                  // of the recording
+  mutable std::mutex pace_mutex_;
+  Pace pace_;
+  std::atomic<std::uint64_t> played_{0};
   std::uint64_t damaged_chunks_ = 0;
 };
 
