@@ -12,25 +12,13 @@
 #include <utility>
 
 #include "components/bag/recording_records.hpp"
+#include "components/bag/recording_state.hpp"
 
 namespace swiftlet {
 namespace {
 
 /// Channels, and schemas, that a recording can have.
 constexpr std::size_t kMaxIds = 65535;
-
-/// Topic and sequence number of messages that a part has from the parts before it.
-using Repeats = std::set<std::pair<std::string, std::uint32_t>>;
-
-std::optional<mcap::Metadata> last_metadata(const mcap::Reader& file, const std::string& name) {
-  std::optional<mcap::Metadata> last;
-  for (const mcap::MetadataIndex& index : file.metadata()) {
-    if (index.name != name) continue;
-    auto read = file.read(index);
-    if (read.ok()) last = std::move(*read);
-  }
-  return last;
-}
 
 Repeats repeats_of(const mcap::Reader& file) {
   Repeats repeats;
@@ -47,23 +35,10 @@ Repeats repeats_of(const mcap::Reader& file) {
   return repeats;
 }
 
-mcap::Timestamp begin_of(const mcap::Reader& file) {
-  mcap::Timestamp begin = file.statistics().message_start_time;
-  for (const mcap::ChunkIndex& chunk : file.chunks()) {
-    if (chunk.message_start_time > 0) begin = std::min(begin, chunk.message_start_time);
-  }
-  return begin;
-}
-
 /// Names with numbers in them as people count: flight_9 before flight_10.
 bool counts_before(const std::string& a, const std::string& b) {
   return std::make_tuple(a.size(), a) < std::make_tuple(b.size(), b);
 }
-
-struct File {
-  Repeats repeats;                            // that are left out
-  std::map<std::uint16_t, std::uint16_t> id;  // of a channel of the recording, by that in the file
-};
 
 }  // namespace
 
@@ -91,36 +66,12 @@ Result<std::vector<std::filesystem::path>> recording_files(
   return files;
 }
 
-struct Recording::State {
-  std::string name;
-  std::vector<mcap::Reader> readers;
-  std::vector<File> files;
-  std::map<std::uint16_t, mcap::Schema> schemas;
-  std::map<std::uint16_t, mcap::Channel> channels;
-  mcap::Statistics statistics;
-  std::vector<Error> damage;
-
-  void unite();
-
- private:
-  using Key = std::array<std::string, 3>;
-  static Key key_of(const mcap::Reader& reader, const mcap::Channel& channel);
-  static Key key_of(const mcap::Schema& schema);
-  void begin_with(const mcap::Reader& reader);
-  void add_channels(const mcap::Reader& reader, File& file);
-  std::uint16_t add_schema(const mcap::Reader& reader, std::uint16_t id);
-  void count(const mcap::Reader& reader, const File& file);
-
-  std::map<Key, std::uint16_t> channel_ids_;
-  std::map<Key, std::uint16_t> schema_ids_;
-};
-
 void Recording::State::unite() {
   std::stable_sort(readers.begin(), readers.end(),
                    [](const auto& a, const auto& b) { return begin_of(a) < begin_of(b); });
   begin_with(readers.front());
   for (const mcap::Reader& reader : readers) {
-    File file;
+    RecordedFile file;
     if (files.empty()) {
       for (const auto& [id, channel] : channels) file.id[id] = id;
     } else {
@@ -154,7 +105,7 @@ void Recording::State::begin_with(const mcap::Reader& reader) {
   for (const auto& [id, channel] : channels) channel_ids_.emplace(key_of(reader, channel), id);
 }
 
-void Recording::State::add_channels(const mcap::Reader& reader, File& file) {
+void Recording::State::add_channels(const mcap::Reader& reader, RecordedFile& file) {
   for (const auto& [id, wanted] : reader.channels()) {
     const auto [known, is_new] = channel_ids_.emplace(key_of(reader, wanted), 0);
     if (is_new && channels.size() < kMaxIds) {
@@ -186,7 +137,7 @@ std::uint16_t Recording::State::add_schema(const mcap::Reader& reader, std::uint
   return known->second;
 }
 
-void Recording::State::count(const mcap::Reader& reader, const File& file) {
+void Recording::State::count(const mcap::Reader& reader, const RecordedFile& file) {
   const mcap::Statistics& more = reader.statistics();
   mcap::Statistics& sum = statistics;
   if (more.message_count > 0) {
@@ -261,133 +212,6 @@ const std::vector<Error>& Recording::damage() const {
 bool Recording::finished() const {
   return std::all_of(state_->readers.begin(), state_->readers.end(),
                      [](const mcap::Reader& reader) { return reader.finished(); });
-}
-
-namespace {
-
-/// The messages of one file, one ahead.
-struct Source {
-  mcap::MessageCursor cursor;
-  Repeats repeats;  // still to come
-  mcap::Timestamp begin = 0;
-  std::optional<mcap::MessageView> head;
-  bool ended = false;
-};
-
-}  // namespace
-
-struct RecordingCursor::Impl {
-  std::shared_ptr<const Recording::State> state;
-  std::vector<Source> sources;
-  std::optional<std::size_t> given;  // whose message was handed out last
-
-  Status fill(std::size_t index);
-  Result<std::optional<mcap::MessageView>> next();
-};
-
-Status RecordingCursor::Impl::fill(std::size_t index) {
-  Source& source = sources[index];
-  const auto& ids = state->files[index].id;
-  while (!source.head && !source.ended) {
-    auto next = source.cursor.next();
-    if (!next.ok()) return next.error();
-    if (!*next) {
-      source.ended = true;
-      return {};
-    }
-    mcap::MessageView view = **next;
-    if (source.repeats.erase({view.channel->topic, view.message.sequence}) > 0) continue;
-    const auto id = ids.find(view.channel->id);
-    if (id == ids.end()) continue;
-    const auto channel = state->channels.find(id->second);
-    const auto schema = state->schemas.find(channel->second.schema_id);
-    view.channel = &channel->second;
-    view.schema = schema == state->schemas.end() ? nullptr : &schema->second;
-    view.message.channel_id = channel->first;
-    source.head = view;
-  }
-  return {};
-}
-
-Result<std::optional<mcap::MessageView>> RecordingCursor::Impl::next() {
-  if (given) sources[*given].head.reset();
-  given.reset();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    // A file whose time has not come is not read yet.
-    const bool is_early = given && sources[*given].head->message.log_time < sources[i].begin;
-    if (is_early) continue;
-    if (const Status filled = fill(i); !filled.ok()) {
-      given.reset();
-      return filled.error();
-    }
-    if (!sources[i].head) continue;
-    if (!given || sources[i].head->message.log_time < sources[*given].head->message.log_time) {
-      given = i;
-    }
-  }
-  return given ? sources[*given].head : std::optional<mcap::MessageView>();
-}
-
-RecordingCursor::RecordingCursor(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-RecordingCursor::RecordingCursor(RecordingCursor&&) noexcept = default;
-RecordingCursor& RecordingCursor::operator=(RecordingCursor&&) noexcept = default;
-RecordingCursor::~RecordingCursor() = default;
-
-Result<std::optional<mcap::MessageView>> RecordingCursor::next() {
-  return impl_->next();
-}
-
-RecordingCursor Recording::messages(const mcap::Filter& filter) const {
-  auto impl = std::make_unique<RecordingCursor::Impl>();
-  impl->state = state_;
-  for (std::size_t i = 0; i < state_->readers.size(); ++i) {
-    const mcap::Reader& reader = state_->readers[i];
-    impl->sources.push_back(
-        {reader.messages(filter), state_->files[i].repeats, begin_of(reader), {}, false});
-  }
-  return RecordingCursor(std::move(impl));
-}
-
-std::optional<LossLedger> losses_of(const Recording& recording) {
-  std::optional<LossLedger> sum;
-  for (const mcap::Reader& file : recording.files()) {
-    const auto record = last_metadata(file, kLossRecord);
-    const auto ledger = record ? ledger_of(*record) : std::nullopt;
-    if (!ledger) continue;
-    if (!sum) sum.emplace();
-    add(*sum, *ledger);
-  }
-  return sum;
-}
-
-std::optional<mcap::Metadata> metadata_named(const Recording& recording, const std::string& name) {
-  for (const mcap::Reader& file : recording.files()) {
-    if (auto found = last_metadata(file, name)) return found;
-  }
-  return std::nullopt;
-}
-
-std::vector<std::string> missing_parts(const Recording& recording) {
-  std::set<unsigned long> parts;
-  for (const mcap::Reader& file : recording.files()) {
-    const auto record = last_metadata(file, kPartRecord);
-    if (!record) continue;
-    const auto number = record->metadata.find("part");
-    if (number == record->metadata.end()) continue;
-    parts.insert(std::strtoul(number->second.c_str(), nullptr, 10));
-  }
-  std::vector<std::string> missing;
-  unsigned long expected = 0;
-  for (const unsigned long part : parts) {
-    if (part > expected) {
-      missing.push_back(recording.name() + ": of the recording's parts, " +
-                        (part == expected + 1 ? "part " + std::to_string(expected) + " is missing"
-                                              : "parts " + std::to_string(expected) + " to " +
-                                                    std::to_string(part - 1) + " are missing"));
-    }
-    expected = part + 1;
-  }
-  return missing;
 }
 
 }  // namespace swiftlet

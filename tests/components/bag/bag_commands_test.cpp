@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/data_folder.hpp"
 #include "tests/components/bag/mcap_test_files.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
+#include "tests/data_folder.hpp"
 
 namespace swiftlet {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "components/bag/carmen/carmen_log.hpp"
 #include "components/bag/carmen/line_fields.hpp"
-#include "tests/data_folder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
+#include "tests/data_folder.hpp"
 
 namespace swiftlet::carmen {
 namespace {

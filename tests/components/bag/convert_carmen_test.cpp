@@ -11,8 +11,8 @@
 #include "components/runtime/message.hpp"
 #include "nav_msgs.h"
 #include "sensor_msgs.h"
-#include "tests/data_folder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
+#include "tests/data_folder.hpp"
 
 namespace swiftlet {
 namespace {
