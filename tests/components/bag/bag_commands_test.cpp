@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "components/bag/recording_writer.hpp"
 #include "tests/components/bag/mcap_test_files.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 #include "tests/data_folder.hpp"
@@ -182,6 +183,86 @@ TEST_F(BagCommands, ABadLogLeavesNothingHalfWritten) {
   EXPECT_THAT(files(), testing::ElementsAre("bad.log", "f.mcap"));
   EXPECT_EQ(bag({"convert", "carmen", data_folder() / "README.md", "-o", "/proc/x.mcap"}).exit_code,
             2);
+}
+
+TEST_F(BagCommands, ARepairedRecordingIsSoundAndTheDamagedOneIsKept) {
+  flip(3000);
+  EXPECT_EQ(bag({"verify", file_}).exit_code, 1);
+  const Outcome repaired = bag({"verify", "--repair", file_});
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.err;
+  EXPECT_THAT(repaired.out,
+              HasSubstr("the damaged file is kept as " + file_.string() + ".damaged"));
+  EXPECT_THAT(repaired.err, HasSubstr("not saved: "));
+  EXPECT_THAT(files(), testing::ElementsAre("f.mcap", "f.mcap.damaged"));
+  EXPECT_EQ(bag({"verify", file_}).exit_code, 0);
+  EXPECT_EQ(bag({"info", file_}).exit_code, 0);
+
+  // Nothing is left to do.
+  const auto before = read_bytes(file_);
+  const json again = json::parse(bag({"verify", "--repair", "--json", file_}).out);
+  EXPECT_EQ(again["sound"], true);
+  EXPECT_FALSE(again.contains("repair"));
+  EXPECT_EQ(read_bytes(file_), before);
+  EXPECT_THAT(files(), testing::ElementsAre("f.mcap", "f.mcap.damaged"));
+}
+
+TEST_F(BagCommands, ARepairIntoAnotherFileTellsScriptsWhatItSaved) {
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  const auto before = read_bytes(file_);
+  const Outcome outcome = bag({"verify", "--repair", "-o", folder_ / "g.mcap", "--json", file_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json repair = json::parse(outcome.out)["repair"];
+  const auto saved = mcap::Reader::open(folder_ / "g.mcap")->statistics().message_count;
+  EXPECT_EQ(repair["saved_messages"], saved);
+  EXPECT_GT(saved, 100U);
+  EXPECT_EQ(read_bytes(file_), before);
+  EXPECT_EQ(bag({"verify", "--repair", "-o", folder_ / "g.mcap", file_}).exit_code, 1)
+      << "it was replaced";
+  EXPECT_EQ(bag({"verify", "-o", folder_ / "h.mcap", file_}).exit_code, 2);
+}
+
+TEST_F(BagCommands, WhatIsNoRecordingIsNotRepaired) {
+  std::ofstream(folder_ / "text.mcap") << "hello";
+  const Outcome outcome = bag({"verify", "--repair", folder_ / "text.mcap"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("text.mcap: byte 0"));
+  EXPECT_THAT(files(), testing::ElementsAre("f.mcap", "text.mcap"));
+}
+
+TEST_F(BagCommands, SeveralFilesAreOneRecording) {
+  RecordingWriterParams params;
+  params.file = folder_ / "flight.mcap";
+  params.split_duration = std::chrono::milliseconds(100);
+  auto writer = RecordingWriter::open(params);
+  ASSERT_TRUE(writer->add_topic({"a", "test/msg/A", "", "", {}, false}).ok());
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    RecordedSample sample;
+    sample.sequence = i;
+    sample.log_time = 1'000'000'000 + i * 10'000'000ULL;
+    ASSERT_TRUE(writer->write(sample).ok());
+    if (i == 50) {
+      ASSERT_TRUE(writer->note({{"a", {7, 2}}}, sample.log_time).ok());
+    }
+  }
+  ASSERT_TRUE(writer->close().ok());
+  std::filesystem::remove(file_);
+
+  const json info = json::parse(bag({"info", "--json", folder_.path()}).out);
+  EXPECT_EQ(info["messages"], 100);
+  EXPECT_EQ(info["files"].size(), writer->files().size());
+  EXPECT_EQ(info["losses"]["dds"], 7);
+  EXPECT_EQ(info["losses"]["recorder"], 2);
+  EXPECT_EQ(info["topics"][0]["lost"]["dds"], 7);
+  const Outcome text = bag({"info", folder_.path()});
+  EXPECT_THAT(text.out, HasSubstr("losses       9 messages: DDS lost 7, the recorder 2"));
+  EXPECT_THAT(text.out, HasSubstr("files        10"));
+
+  EXPECT_EQ(bag({"verify", folder_.path()}).exit_code, 0);
+  std::filesystem::remove(writer->files()[4]);
+  const Outcome gap = bag({"verify", folder_.path()});
+  EXPECT_EQ(gap.exit_code, 1);
+  EXPECT_THAT(gap.err, HasSubstr("part 4 is missing"));
+  EXPECT_THAT(bag({"info", folder_.path()}).err, HasSubstr("part 4 is missing"));
 }
 
 TEST_F(BagCommands, AnOutputThatCannotBeMadeIsAFailure) {

@@ -12,6 +12,8 @@
 #include <csignal>
 
 #include "components/bag/mcap/verify.hpp"
+#include "components/bag/recording.hpp"
+#include "components/bag/recording_records.hpp"
 #include "tests/components/bag/scripted_traffic.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 
@@ -146,6 +148,163 @@ TEST_F(RecorderTest, OfAVehicleItsOwnTopicsAreRecordedByTheirOwnNames) {
   std::vector<Cdr> recorded;
   for (const Sample& sample : mcap::read_samples(reader)) recorded.push_back(sample.data);
   EXPECT_EQ(recorded, expected);
+}
+
+TEST_F(RecorderTest, PatternsChooseTopics) {
+  const std::vector<ScriptedTopic> topics = {{"rt/camera/left/image", kImuType},
+                                             {"rt/camera/info", kImuType},
+                                             {"rt/camera_info", kImuType},
+                                             {"rt/imu0", kImuType},
+                                             {"rt/imu10", kImuType},
+                                             {"ros_discovery_info", kImuType},
+                                             {"rq/serviceRequest", kImuType}};
+  const auto script = random_publications(16, topics.size(), 210, 5ms);
+  const auto chosen = [&](TopicPatterns patterns) {
+    RecorderParams params;
+    params.overwrite = true;
+    params.topics = patterns.topics;
+    params.regexes = patterns.regexes;
+    params.exclude = patterns.exclude;
+    return topics_of(record(topics, script, params));
+  };
+  EXPECT_THAT(chosen({{"camera/*"}, {}, {}}), UnorderedElementsAre("camera/info"));
+  EXPECT_THAT(chosen({{"/camera/**"}, {}, {}}),
+              UnorderedElementsAre("camera/info", "camera/left/image"));
+  EXPECT_THAT(chosen({{"imu?", "nothing*"}, {}, {}}), UnorderedElementsAre("imu0"));
+  EXPECT_THAT(missing_, ElementsAre("nothing*"));
+  EXPECT_THAT(chosen({{}, {"imu[0-9]+", "camera/.*"}, {}}),
+              UnorderedElementsAre("imu0", "imu10", "camera/info", "camera/left/image"));
+  EXPECT_THAT(chosen({{"imu0"}, {"imu1."}, {"**0"}}), testing::IsEmpty());
+  EXPECT_THAT(chosen({{}, {}, {"camera/**", "imu10"}}), UnorderedElementsAre("camera_info", "imu0"))
+      << "what ROS 2 uses beneath its topics is not one";
+}
+
+TEST_F(RecorderTest, PatternsThatFitNoNameAreRefused) {
+  Host host(lockstep_at());
+  for (const char* wrong : {"a b", "a//b", "camera/[ab]", "", "9*", "a/"}) {
+    EXPECT_THROW(host.emplace<Recorder>("recorder", RecorderParams{file_, {wrong}, true}),
+                 ConfigError)
+        << wrong;
+  }
+  RecorderParams params{file_, {}, true};
+  params.regexes = {"imu("};
+  EXPECT_THROW(host.emplace<Recorder>("recorder", params), ConfigError);
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "a file was made before all was known";
+}
+
+TEST_F(RecorderTest, InLockstepTheSameRunGivesTheSameBytes) {
+  const auto script = random_publications(11, kTopics.size(), 900, 7ms);
+  RecorderParams params;
+  params.overwrite = true;
+  params.run = {{"scenario", "test"}};
+  std::vector<mcap::Bytes> files;
+  for (int i = 0; i < 3; ++i) {
+    record(kTopics, script, params);
+    files.push_back(read_bytes(file_));
+  }
+  EXPECT_TRUE(files[0] == files[1] && files[1] == files[2]);
+}
+
+TEST_F(RecorderTest, TheFileSaysWhichRunItIs) {
+  RecorderParams params;
+  params.run = {{"scenario", "test"}, {"lockstep", "a lie"}};
+  const mcap::Reader reader =
+      record({{"rt/uav1/scan", kScanType}}, random_publications(12, 1, 30, 5ms), params, "uav1");
+  const auto run = metadata_named(reader, kRunRecord);
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->metadata.at("scenario"), "test");
+  EXPECT_EQ(run->metadata.at("lockstep"), "true");
+  EXPECT_EQ(run->metadata.at("vehicle"), "uav1");
+  EXPECT_EQ(run->metadata.at("domain"), "76");
+  EXPECT_EQ(run->metadata.at("start_ns"), "0");
+  EXPECT_FALSE(run->metadata.at("version").empty());
+  EXPECT_EQ(losses_of(reader), LossLedger());
+}
+
+TEST_F(RecorderTest, PartsOfALockstepRunAreWhatWasPublished) {
+  const auto script = random_publications(13, kTopics.size(), 900, 7ms);
+  RecorderParams params;
+  params.file = folder_ / "parts" / "f.mcap";
+  std::filesystem::create_directories(folder_ / "parts");
+  params.split_duration = 500ms;
+  Host host(lockstep_at());
+  host.emplace<Script>("script", kTopics, script);
+  auto& recorder = host.emplace<Recorder>("recorder", params);
+  ASSERT_EQ(host.run(), 0);
+  ASSERT_TRUE(recorder.close().ok());
+  ASSERT_GT(recorder.files().size(), 3U);
+  const auto recording = Recording::open({folder_ / "parts"});
+  std::vector<Sample> samples;
+  auto cursor = recording->messages();
+  for (auto next = cursor.next(); next.ok() && *next; next = cursor.next()) {
+    samples.push_back({(*next)->channel->topic, (*next)->message.sequence,
+                       (*next)->message.log_time, (*next)->message.publish_time,
+                       (*next)->message.data.copy()});
+  }
+  EXPECT_TRUE(samples == expected_samples(kTopics, script));
+}
+
+/// Asks the recorder to save its window at some times.
+struct Saver : Component {
+  Saver(const ComponentContext& context, Recorder*& recorder, const std::vector<Duration>& times)
+      : Component(context) {
+    for (const Duration time : times) {
+      call_at(Time(time), [&recorder](Time) { recorder->save(); });
+    }
+  }
+};
+
+TEST_F(RecorderTest, AWindowIsSavedWhenAskedWithTheMapFromBefore) {
+  auto script = random_publications(14, 2, 900, 20ms);  // scan and imu0 over 6 s
+  script.insert(script.begin(), {Time(1ms), 2, Cdr{0, 1, 0, 0, 42}});
+  Recorder* recorder = nullptr;
+  RecorderParams params;
+  params.file = folder_ / "last.mcap";
+  params.window = 1s;
+  Host host(lockstep_at());
+  host.emplace<Script>("script", kTopics, script);
+  host.emplace<Saver>("saver", recorder, std::vector<Duration>{3005ms, 5005ms});
+  recorder = &host.emplace<Recorder>("recorder", params);
+  ASSERT_EQ(host.run(), 0);
+  ASSERT_TRUE(recorder->close().ok());
+  ASSERT_EQ(recorder->files().size(), 2U);
+  EXPECT_FALSE(std::filesystem::exists(params.file)) << "only what is asked for is written";
+  // It is saved at the next tenth of a second.
+  EXPECT_EQ(recorder->files()[0].filename(), "last_19700101T000003.100Z.mcap");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const mcap::Timestamp end = mcap::to_timestamp(Time(i == 0 ? 3100ms : 5100ms));
+    const auto source = mcap::open_file(recorder->files()[i]);
+    EXPECT_THAT(mcap::verify(*source)->problems, testing::IsEmpty());
+    const auto samples = mcap::read_samples(*mcap::Reader::open(recorder->files()[i]));
+    std::vector<Sample> expected;
+    for (const Sample& sample : expected_samples(kTopics, script)) {
+      if (sample.log_time >= end - 1'000'000'000 && sample.log_time < end) {
+        expected.push_back(sample);
+      }
+    }
+    ASSERT_EQ(samples.size(), expected.size() + 1);
+    EXPECT_EQ(samples[0].topic, "map");
+    EXPECT_EQ(samples[0].data, (Cdr{0, 1, 0, 0, 42}));
+    EXPECT_EQ(samples[0].log_time, expected[0].log_time);
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), samples.begin() + 1));
+  }
+}
+
+TEST_F(RecorderTest, AWindowThatCannotBeSavedIsAnErrorAndTheNextOneIsSaved) {
+  Recorder* recorder = nullptr;
+  RecorderParams params;
+  params.file = folder_ / "last.mcap";
+  params.window = 1s;
+  std::ofstream(folder_ / "last_19700101T000000.200Z.mcap") << "in the way";
+  Host host(lockstep_at());
+  host.emplace<Script>("script", kTopics, random_publications(15, 2, 300, 20ms));
+  host.emplace<Saver>("saver", recorder, std::vector<Duration>{150ms, 1005ms});
+  recorder = &host.emplace<Recorder>("recorder", params);
+  ASSERT_EQ(host.run(), 0);
+  const Status closed = recorder->close();
+  ASSERT_FALSE(closed.ok());
+  EXPECT_THAT(closed.error().reason, HasSubstr("last_19700101T000000.200Z.mcap"));
+  EXPECT_EQ(recorder->files().size(), 1U);
 }
 
 /// Speaks on a topic that it offers only from 1.234 s on: at once, and a second later.
