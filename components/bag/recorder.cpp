@@ -258,7 +258,7 @@ void Recorder::report_drops() {
     }
   } else if (dropping_ && now() - last_drop_ >= 1s) {
     dropping_ = false;
-    log()->warn("no more samples are being dropped; it were {} since the last such line",
+    log()->warn("no more samples are being dropped; {} were",
                 drops - std::exchange(reported_drops_, drops));
   }
 }
