@@ -75,6 +75,11 @@ std::optional<LossLedger> ledger_of(const mcap::Metadata& metadata) {
   return ledger;
 }
 
+bool SequenceWatch::is_new(const WriterId& writer, std::uint64_t sequence) const {
+  const auto last = last_.find(writer);
+  return last == last_.end() || sequence > last->second;
+}
+
 std::uint64_t SequenceWatch::missing_before(const WriterId& writer, std::uint64_t sequence) {
   const auto [entry, is_new] = last_.emplace(writer, sequence);
   if (is_new) {

@@ -50,6 +50,8 @@ class SequenceWatch {
  public:
   using WriterId = std::array<std::uint8_t, 16>;
 
+  /// Whether it comes behind all that this writer wrote and that was heard.
+  bool is_new(const WriterId& writer, std::uint64_t sequence) const;
   /// The number of samples that are missing in front of this one.
   std::uint64_t missing_before(const WriterId& writer, std::uint64_t sequence);
 

@@ -16,10 +16,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Samples of a topic that wait in DDS until their turn: half a second of the fastest sensor.
+/// Samples of a topic that may wait in DDS until their turn: half a second of the fastest sensor.
 constexpr int kDepth = 512;
-/// Of topics whose samples are large, so that what waits in DDS stays small, too.
-constexpr int kLargeDepth = 32;
+/// Where samples are large, those may take this part of the memory.
+constexpr std::uint64_t kReaderShare = 8;
 /// A crash costs at most what came since the last flush, and what still waits.
 constexpr Duration kFlushPeriod = 500ms;
 
@@ -37,13 +37,6 @@ bool is_plumbing(const std::string& wire) {
   return prefix == "rq/" || prefix == "rr/" || prefix == "rs/";
 }
 
-bool has_large_samples(const std::string& ros_type) {
-  for (const char* part : {"Image", "PointCloud", "OccupancyGrid", "Frame"}) {
-    if (ros_type.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
-
 std::map<std::string, std::string> run_metadata(const ComponentContext& context,
                                                 const RecorderParams& params) {
   std::map<std::string, std::string> run = params.run;
@@ -56,43 +49,6 @@ std::map<std::string, std::string> run_metadata(const ComponentContext& context,
 }
 
 }  // namespace
-
-/// Takes the samples of one topic, one each time it is its turn, so that samples of different
-/// topics are recorded in the order in which they arrived.
-class Recorder::TopicReader : public Task {
- public:
-  TopicReader(Recorder& recorder, std::size_t topic, const EndpointSpec& spec)
-      : recorder_(recorder), topic_(topic) {
-    const auto note = [this, depth = spec.qos.depth] {
-      if (pending_.fetch_add(1) < depth) {
-        recorder_.mailbox().post(*this);
-      } else {
-        pending_.fetch_sub(1);
-      }
-    };
-    reader_ = recorder.context().participant->make_reader(spec, note);
-  }
-
-  void run() override {
-    pending_.fetch_sub(1);
-    Cdr cdr;
-    SampleOrigin origin;
-    if (!reader_->take(cdr, &origin)) return;
-    const std::uint64_t missing = watch_.missing_before(origin.writer, origin.sequence);
-    if (missing > 0) {
-      recorder_.losses_[recorder_.topics_[topic_].name].by_dds += missing;
-      recorder_.lost_by_dds_ += missing;
-    }
-    recorder_.keep(topic_, origin, std::move(cdr));
-  }
-
- private:
-  Recorder& recorder_;
-  std::size_t topic_;
-  SequenceWatch watch_;
-  std::atomic<int> pending_{0};  // runs posted and not begun
-  std::unique_ptr<Reader> reader_;
-};
 
 Recorder::Recorder(const ComponentContext& context, const RecorderParams& params)
     : Component(context),
@@ -196,13 +152,23 @@ void Recorder::record(const Endpoint& endpoint, const std::string& name) {
   if (writer_) background_->post([this, topic] { return writer_->add_topic(topic); });
   // Ask for no more than is offered.
   QosProfile qos = endpoint.qos;
-  qos.depth = std::max(qos.depth, has_large_samples(topic.type) ? kLargeDepth : kDepth);
+  qos.depth = std::max(qos.depth, kDepth);
   topics_.push_back(std::move(topic));
   sequence_.push_back(0);
   topic_count_ = topics_.size();
+  // In lockstep each sample is taken before the next one is written.
+  const std::uint64_t limit = lockstep_ ? 0 : params_.max_memory / kReaderShare;
   readers_.push_back(std::make_unique<TopicReader>(
-      *this, topics_.size() - 1,
-      EndpointSpec{endpoint.topic, endpoint.type, qos, Component::name(), nullptr}));
+      mailbox(), *context().participant,
+      EndpointSpec{endpoint.topic, endpoint.type, qos, Component::name(), nullptr}, limit,
+      [this, topic = topics_.size() - 1](Cdr cdr, const SampleOrigin& origin,
+                                         std::uint64_t missing) {
+        if (missing > 0) {
+          losses_[topics_[topic].name].by_dds += missing;
+          lost_by_dds_ += missing;
+        }
+        keep(topic, origin, std::move(cdr));
+      }));
 }
 
 void Recorder::keep(std::size_t topic, const SampleOrigin& origin, Cdr cdr) {
@@ -295,6 +261,7 @@ void Recorder::save_window() {
     saving_ = false;
     return Status();  // the next one may find room on the disk
   });
+  if (lockstep_) check(background_->drain());
 }
 
 Result<std::string> Recorder::write_window(const SampleWindow::Content& content,

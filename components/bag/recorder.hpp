@@ -14,6 +14,7 @@
 #include "components/bag/background_writer.hpp"
 #include "components/bag/recording_writer.hpp"
 #include "components/bag/sample_window.hpp"
+#include "components/bag/topic_reader.hpp"
 #include "components/bag/topic_selection.hpp"
 #include "components/runtime/component.hpp"
 
@@ -77,8 +78,6 @@ class Recorder : public Component {
   std::vector<std::string> missing() const;
 
  private:
-  class TopicReader;
-
   void open();
   void look_for_topics();
   void record(const Endpoint& endpoint, const std::string& topic);

@@ -82,7 +82,8 @@ class BagLoad : public test::SystemTest {
   };
 
   test::Process record(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {"bag", "record", "-o", file_};
+    // Others may be talking in this domain, too.
+    std::vector<std::string> command = {"bag", "record", "-o", file_, "load_*"};
     command.insert(command.end(), more.begin(), more.end());
     return start(command);
   }
@@ -114,7 +115,12 @@ class BagLoad : public test::SystemTest {
     EXPECT_EQ(losses_of(*recording), LossLedger());
     std::set<std::uint64_t> numbers;
     for (const auto& [topic, recorded] : numbers_in(*recording)) {
-      for (const auto& [number, time] : recorded) numbers.insert(number);
+      EXPECT_EQ(topic.rfind("load_", 0), 0U) << topic;
+      for (const auto& [number, time] : recorded) {
+        EXPECT_LT(number, spoken_) << topic;
+        EXPECT_TRUE(numbers.insert(number).second) << topic << " " << number << " came twice";
+        if (HasFailure()) return;
+      }
     }
     EXPECT_EQ(numbers.size(), spoken_);
   }
@@ -128,23 +134,24 @@ class BagLoad : public test::SystemTest {
     const LossLedger ledger = ledger_of(*record).value();
     for (const auto& [topic, recorded] : numbers_in(recording)) {
       std::uint64_t least = 0, most = 0;
-      for (std::size_t i = 1; i < recorded.size(); ++i) {
+      bool is_bounded = false;
+      for (std::size_t i = 1; i < recorded.size() && !is_bounded; ++i) {
         most += recorded[i].first - recorded[i - 1].first - 1;
-        if (recorded[i].second > noted) break;
-        least = most;
+        is_bounded = recorded[i].second > noted;
+        if (!is_bounded) least = most;
       }
       const auto found = ledger.find(topic);
       const std::uint64_t said = found == ledger.end() ? 0 : found->second.total();
       EXPECT_GE(said, least) << topic;
-      EXPECT_LE(said, most) << topic;
-      lost_ += said;
+      if (is_bounded) {
+        EXPECT_LE(said, most) << topic;
+      }
     }
   }
 
   const double seconds_ = test::full_tests() ? 60.0 : 5.0;
   std::string file_ = path("f.mcap");
   std::uint64_t spoken_ = 0;
-  std::uint64_t lost_ = 0;
 };
 
 /// What waits may take 256 MB; the rest is the program and the middleware.
@@ -201,7 +208,8 @@ TEST_F(BagLoad, KilledAtAnyMomentLosesASecondAtMostAndTheLedgerIsRight) {
   for (int i = 0; i < kills; ++i) {
     // Small samples that all arrive, or large ones of which the network loses some.
     const bool lossy = i % 2 == 1;
-    test::Process recorder = record({"--overwrite"});
+    file_ = path("killed_" + std::to_string(i) + ".mcap");
+    test::Process recorder = record();
     test::Process speaker = publish(lossy ? Load{1, 500'000, 1200, 20.0, "best_effort"}
                                           : Load{4, 200, 4000, 20.0, "reliable"});
     ASSERT_TRUE(test::becomes_true(test::kStartLimit, [&] {
@@ -234,9 +242,9 @@ TEST_F(BagLoad, KilledAtAnyMomentLosesASecondAtMostAndTheLedgerIsRight) {
 
 TEST_F(BagLoad, AFullDiskEndsTheRecordingAndKeepsWhatIsOnIt) {
   constexpr std::uintmax_t kRoom = 3'000'000;
-  test::Process recorder =
-      start_command({"prlimit", "--fsize=" + std::to_string(kRoom), "env", "--ignore-signal=XFSZ",
-                     SWIFTLET_PROGRAM, "bag", "record", "-o", file_, "--compression", "none"});
+  test::Process recorder = start_command({"prlimit", "--fsize=" + std::to_string(kRoom), "env",
+                                          "--ignore-signal=XFSZ", SWIFTLET_PROGRAM, "bag", "record",
+                                          "-o", file_, "load_*", "--compression", "none"});
   test::Process speaker = publish({1, 10'000, 500, 20.0, "reliable"});
   const auto ended = recorder.wait(test::Seconds(30.0));
   ASSERT_TRUE(ended) << "goes on without a disk";
