@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 #include "components/bag/recording_records.hpp"
@@ -41,7 +42,26 @@ std::map<std::uint16_t, std::uint64_t> sizes_of(const Recording& recording) {
   }
 }
 
-/// One entry a channel, by topic name.
+/// Channels of one topic that several components wrote are one to a reader.
+std::vector<TopicInfo> united(const std::vector<TopicInfo>& channels) {
+  std::vector<TopicInfo> topics;
+  for (const TopicInfo& channel : channels) {
+    const bool is_more = !topics.empty() && topics.back().topic == channel.topic &&
+                         topics.back().type == channel.type &&
+                         topics.back().message_encoding == channel.message_encoding;
+    if (!is_more) {
+      topics.push_back(channel);
+      continue;
+    }
+    topics.back().messages += channel.messages;
+    topics.back().bytes += channel.bytes;
+    topics.back().loss.by_dds += channel.loss.by_dds;
+    topics.back().loss.by_recorder += channel.loss.by_recorder;
+  }
+  return topics;
+}
+
+/// One entry a topic, by name.
 std::vector<TopicInfo> topics_of(const Recording& recording, bool with_sizes) {
   std::vector<TopicInfo> topics;
   auto sizes = with_sizes ? sizes_of(recording) : std::map<std::uint16_t, std::uint64_t>();
@@ -63,9 +83,11 @@ std::vector<TopicInfo> topics_of(const Recording& recording, bool with_sizes) {
     info.loss = std::exchange(losses[channel.topic], Loss{});
     topics.push_back(std::move(info));
   }
-  std::stable_sort(topics.begin(), topics.end(),
-                   [](const TopicInfo& a, const TopicInfo& b) { return a.topic < b.topic; });
-  return topics;
+  std::stable_sort(topics.begin(), topics.end(), [](const TopicInfo& a, const TopicInfo& b) {
+    return std::tie(a.topic, a.type, a.message_encoding) <
+           std::tie(b.topic, b.type, b.message_encoding);
+  });
+  return united(topics);
 }
 
 double duration_s(const mcap::Statistics& statistics) {

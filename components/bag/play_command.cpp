@@ -159,7 +159,7 @@ int play(const PlayOptions& options) {
   const PlayerParams params = params_of(options, *recording);
   Host host(options.network.host_options("bag_play"));
   auto& player = host.emplace<Player>("player", *recording, params);
-  if (player.channels() == 0) {
+  if (player.topics() == 0) {
     throw ConfigError(fmt::format("{}: holds no messages that could be played", recording->name()));
   }
   Terminal terminal;

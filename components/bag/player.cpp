@@ -109,7 +109,10 @@ void Player::offer(const mcap::Channel& channel, const std::string& wire, const 
   const auto wanted = params_.qos.find(without_slash(channel.topic));
   QosProfile qos = wanted == params_.qos.end() ? qos_of(channel) : wanted->second;
   qos.large = true;  // nothing says how large the samples are
-  writers_[channel.id] = advertise_raw(wire, type, qos);
+  // Several components may have written the topic.
+  std::shared_ptr<Writer>& writer = by_topic_[wire];
+  if (writer == nullptr) writer = advertise_raw(wire, type, qos);
+  writers_[channel.id] = writer;
   if (qos.transient_local) latched_[channel.topic] = qos.depth;
 }
 

@@ -43,7 +43,7 @@ class Player : public Component {
  public:
   Player(const ComponentContext& context, const Recording& recording, const PlayerParams& params);
 
-  std::size_t channels() const { return writers_.size(); }
+  std::size_t topics() const { return by_topic_.size(); }
   std::uint64_t played() const { return played_; }
   /// Chunks that could not be read.
   std::uint64_t damaged_chunks() const { return damaged_chunks_; }
@@ -111,6 +111,7 @@ class Player : public Component {
   Recording recording_;
   Wishes wishes_{*this};
   std::map<std::uint16_t, std::shared_ptr<Writer>> writers_;  // by channel
+  std::map<std::string, std::shared_ptr<Writer>> by_topic_;   // the same by topic on the wire
   std::map<std::string, std::string> types_;                  // by topic, both as on the wire
   std::map<std::string, int> latched_;  // depth of topics for late readers, by recorded name
   Publisher<rosgraph_msgs::msg::Clock> clock_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "components/bag/recording_records.hpp"
 #include "components/runtime/names.hpp"
 #include "components/runtime/reflection/idl_schema.hpp"
 
@@ -40,7 +41,7 @@ bool is_plumbing(const std::string& wire) {
 std::map<std::string, std::string> run_metadata(const ComponentContext& context,
                                                 const RecorderParams& params) {
   std::map<std::string, std::string> run = params.run;
-  run["start_ns"] = std::to_string(mcap::to_timestamp(context.executor->now()));
+  run[kRunStartKey] = std::to_string(mcap::to_timestamp(context.executor->now()));
   run["vehicle"] = context.vehicle;
   run["domain"] = std::to_string(context.domain);
   run["lockstep"] = context.executor->is_lockstep() ? "true" : "false";
@@ -140,6 +141,7 @@ void Recorder::record(const Endpoint& endpoint, const std::string& name) {
   topic.type = ros_type_name(endpoint.type);
   topic.latched = endpoint.qos.transient_local;
   topic.metadata = {{"offered_qos_profiles", qos_metadata(endpoint.qos)}};
+  if (!endpoint.component.empty()) topic.metadata[kChannelComponentKey] = endpoint.component;
   const auto idl = idl_schema(topic.type);
   if (idl.ok()) {
     topic.schema_encoding = "ros2idl";
@@ -149,13 +151,10 @@ void Recorder::record(const Endpoint& endpoint, const std::string& name) {
     log()->warn("{} has the type {}, which this program does not know: recorded without its IDL",
                 name, topic.type);
   }
-  if (writer_) background_->post([this, topic] { return writer_->add_topic(topic); });
   // Ask for no more than is offered.
   QosProfile qos = endpoint.qos;
   qos.depth = std::max(qos.depth, kDepth);
-  topics_.push_back(std::move(topic));
-  sequence_.push_back(0);
-  topic_count_ = topics_.size();
+  add(std::move(topic));
   // In lockstep each sample is taken before the next one is written.
   const std::uint64_t limit = lockstep_ ? 0 : params_.max_memory / kReaderShare;
   readers_.push_back(std::make_unique<TopicReader>(
@@ -167,8 +166,32 @@ void Recorder::record(const Endpoint& endpoint, const std::string& name) {
           losses_[topics_[topic].name].by_dds += missing;
           lost_by_dds_ += missing;
         }
-        keep(topic, origin, std::move(cdr));
+        keep(topic_of_writer(topic, origin.writer), origin, std::move(cdr));
       }));
+  topic_count_ = readers_.size();
+}
+
+void Recorder::add(RecordedTopic topic) {
+  if (writer_) background_->post([this, topic] { return writer_->add_topic(topic); });
+  topics_.push_back(std::move(topic));
+  sequence_.push_back(0);
+}
+
+/// `topic` itself, or another of that name for what another component writes.
+std::size_t Recorder::topic_of_writer(std::size_t topic, const EndpointGuid& writer) {
+  const auto known = topic_by_writer_.find(writer);
+  if (known != topic_by_writer_.end()) return known->second;
+  const std::string component = context().participant->graph().component_of(endpoint_id(writer));
+  RecordedTopic own = topics_[topic];
+  if (!component.empty()) own.metadata[kChannelComponentKey] = component;
+  std::size_t place = 0;
+  while (place < topics_.size() &&
+         (topics_[place].name != own.name || topics_[place].metadata != own.metadata)) {
+    ++place;
+  }
+  if (place == topics_.size()) add(std::move(own));
+  topic_by_writer_.emplace(writer, place);
+  return place;
 }
 
 void Recorder::keep(std::size_t topic, const SampleOrigin& origin, Cdr cdr) {

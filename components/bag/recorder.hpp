@@ -81,6 +81,8 @@ class Recorder : public Component {
   void open();
   void look_for_topics();
   void record(const Endpoint& endpoint, const std::string& topic);
+  void add(RecordedTopic topic);
+  std::size_t topic_of_writer(std::size_t topic, const EndpointGuid& writer);
   void keep(std::size_t topic, const SampleOrigin& origin, Cdr cdr);
   void flush();
   void tick();
@@ -95,8 +97,9 @@ class Recorder : public Component {
   TopicSelection selection_;
   bool lockstep_;
   RecordingWriterParams writer_params_;
-  std::set<std::string> known_;          // topics on the wire that were looked at
-  std::vector<RecordedTopic> topics_;    // in the file
+  std::set<std::string> known_;        // topics on the wire that were looked at
+  std::vector<RecordedTopic> topics_;  // in the file, one for each component that writes it
+  std::map<EndpointGuid, std::size_t> topic_by_writer_;
   std::vector<std::uint32_t> sequence_;  // by topic
   LossLedger losses_;
   std::optional<SampleWindow> window_;

@@ -89,8 +89,10 @@ void Recording::State::unite() {
 Recording::State::Key Recording::State::key_of(const mcap::Reader& reader,
                                                const mcap::Channel& channel) {
   const auto type = reader.schemas().find(channel.schema_id);
+  const auto component = channel.metadata.find(kChannelComponentKey);
   return {channel.topic, channel.message_encoding,
-          type == reader.schemas().end() ? "" : type->second.name};
+          (type == reader.schemas().end() ? "" : type->second.name) +
+              (component == channel.metadata.end() ? "" : " of " + component->second)};
 }
 
 Recording::State::Key Recording::State::key_of(const mcap::Schema& schema) {

@@ -8,10 +8,11 @@
 
 #include "components/bag/content_hash.hpp"
 #include "components/bag/recorder.hpp"
+#include "components/bag/recording_records.hpp"
 #include "components/cli/flight_report.hpp"
-#include "components/cli/map_keeper.hpp"
 #include "components/cli/progress.hpp"
 #include "components/cli/verbs.hpp"
+#include "components/lidar_mapper/map_keeper.hpp"
 #include "components/runtime/command_line.hpp"
 #include "components/sim/pilot.hpp"
 #include "components/sim/referee.hpp"
@@ -73,7 +74,12 @@ int fly(const FlyOptions& options) {
   }
   Recorder* recorder = nullptr;
   if (!options.record.empty()) {
-    recorder = &host.emplace<Recorder>("recorder", RecorderParams{options.record, {}, true});
+    RecorderParams params;
+    params.file = options.record;
+    params.overwrite = true;
+    params.run = {{kRunComponentsKey, fmt::format("{}", fmt::join(kHosted, " "))},
+                  {kRunParametersKey, parameters.dump()}};
+    recorder = &host.emplace<Recorder>("recorder", params);
   }
   if (!options.report.empty()) make_folder(options.report);
 

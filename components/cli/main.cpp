@@ -8,6 +8,7 @@
 #include "components/bag/live_commands.hpp"
 #include "components/cli/verbs.hpp"
 #include "components/introspection/introspection_commands.hpp"
+#include "components/replay/replay_command.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
 #include "gcs/gcs_commands.hpp"

@@ -13,6 +13,5 @@ namespace swiftlet {
 
 void add_fly(CLI::App& app);
 void add_run(CLI::App& app);
-void add_replay(CLI::App& app);
 
 }  // namespace swiftlet

@@ -20,8 +20,9 @@ void ParameterOptions::add_to(CLI::App& verb) {
       ->take_all();
 }
 
-Config ParameterOptions::load() const {
-  Config config = file_.empty() ? Config() : Config::load(file_);
+Config ParameterOptions::load(const std::string& recorded) const {
+  Config config =
+      file_.empty() ? Config::parse(recorded, "recorded parameters") : Config::load(file_);
   const auto check_component = [&config](const std::string& name, const std::string& value) {
     if (ComponentRegistry::instance().find(name) != nullptr) return;
     std::vector<std::string> known;

@@ -24,7 +24,9 @@ class ParameterOptions {
 
   /// All sections. Throws ConfigError where the file cannot be used or names a component that this
   /// program does not have.
-  Config load() const;
+  Config load() const { return load(""); }
+  /// The same on top of parameters in YAML that were used before; a file replaces them.
+  Config load(const std::string& recorded) const;
   /// Refuses keys that none of the hosted components asked for. What the file has for components
   /// that are hosted elsewhere is theirs.
   static void finish(const Config& parameters, const std::vector<std::string>& hosted);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -105,7 +106,8 @@ class Component {
                      {topic.name, message_type<T>(), topic.qos, need});
   }
 
-  /// The same for bytes, of types that need not be known: topic and type as on the wire.
+  /// The same for bytes, of types that need not be known: topic and type as on the wire. The
+  /// callback may take the sample's origin, too.
   std::shared_ptr<Writer> advertise_raw(const std::string& wire_topic, const std::string& dds_type,
                                         const QosProfile& qos);
   template <class Callback>
@@ -193,7 +195,13 @@ class Component {
     RawSubscription(Mailbox& mailbox, Callback callback)
         : SubscriptionTask(mailbox), callback_(std::move(callback)) {}
     void dispatch_one(Reader& reader) override {
-      if (reader.take(cdr_)) callback_(std::as_const(cdr_));
+      SampleOrigin origin;
+      if (!reader.take(cdr_, &origin)) return;
+      if constexpr (std::is_invocable_v<Callback, const Cdr&, const SampleOrigin&>) {
+        callback_(std::as_const(cdr_), std::as_const(origin));
+      } else {
+        callback_(std::as_const(cdr_));
+      }
     }
 
    private:

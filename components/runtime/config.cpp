@@ -200,6 +200,23 @@ std::vector<ConfigEntry> Config::entries() const {
   return entries;
 }
 
+std::string Config::dump() const {
+  YAML::Node top(YAML::NodeType::Map);
+  for (const ConfigEntry& entry : entries()) {
+    if (entry.path.find('[') != std::string::npos) continue;  // within a list of mappings
+    YAML::Node node = top;
+    std::size_t begin = 0;
+    for (std::size_t dot = entry.path.find('.'); dot != std::string::npos;
+         begin = dot + 1, dot = entry.path.find('.', begin)) {
+      node.reset(node[entry.path.substr(begin, dot - begin)]);
+    }
+    node[entry.path.substr(begin)] = YAML::Load(entry.value);
+  }
+  YAML::Emitter text;
+  text << top;
+  return text.c_str();
+}
+
 void Config::read(const std::string& key, bool& value) const {
   const YAML::Node node = find(key);
   if (node.IsDefined() && (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))) {

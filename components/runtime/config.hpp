@@ -95,6 +95,8 @@ class Config {
 
   /// Every value that was read from this mapping and those below, in the order of asking.
   std::vector<ConfigEntry> entries() const;
+  /// The same as a YAML file, which read again gives the same values.
+  std::string dump() const;
 
   /// Refuses keys that nobody asked for, in the whole file that this mapping belongs to.
   void finish() const;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "estimation/basics/time.hpp"
@@ -35,6 +36,17 @@ class Mailbox {
   virtual void halt() = 0;
 };
 
+/// What happens at times of its own in a lockstep run, besides timers: recorded messages.
+class EventSource {
+ public:
+  virtual ~EventSource() = default;
+  /// When it happens next; nothing when it is over.
+  virtual std::optional<Time> next() const = 0;
+  /// Whether, of all that is due at that moment, it comes before the timers.
+  virtual bool before_timers() const = 0;
+  virtual void happen() = 0;
+};
+
 /// Runs components, in one of two ways that components cannot tell apart.
 class Executor {
  public:
@@ -50,6 +62,9 @@ class Executor {
   virtual int run() = 0;
   /// From any thread. The first call decides.
   virtual void stop(int exit_code) = 0;
+  /// One source of events, which must outlive the run. In lockstep only, before the run begins;
+  /// throws std::logic_error otherwise.
+  virtual void set_event_source(EventSource& source) = 0;
 };
 
 /// A thread for each component and the system's clock, in nanoseconds since 1970 that never jump.

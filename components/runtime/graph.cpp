@@ -59,6 +59,12 @@ std::vector<Endpoint> Graph::endpoints() const {
   return endpoints;
 }
 
+std::string Graph::component_of(const std::string& id) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = endpoints_.find(id);
+  return found == endpoints_.end() ? "" : found->second.component;
+}
+
 std::vector<Conflict> Graph::conflicts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<Conflict> conflicts;

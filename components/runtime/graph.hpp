@@ -41,6 +41,8 @@ class Graph {
   void remove(const std::string& id);
 
   std::vector<Endpoint> endpoints() const;
+  /// The component of the endpoint with that id; "" where it is not known, or does not say.
+  std::string component_of(const std::string& id) const;
   std::vector<Conflict> conflicts() const;
 
  private:

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -44,6 +45,10 @@ class LiveExecutor : public Executor {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!exit_code_) exit_code_ = exit_code;
     changed_.notify_all();
+  }
+
+  void set_event_source(EventSource&) override {
+    throw std::logic_error("events of recorded times need a lockstep run");
   }
 
   int run() override {

@@ -30,13 +30,15 @@ class LockstepExecutor : public Executor {
     if (!exit_code_) exit_code_ = exit_code;
   }
 
+  void set_event_source(EventSource& source) override { source_ = &source; }
+
   int run() override {
     try {
       while (!finished()) {
         if (signals_.received()) return 0;
         if (Task* task = next_task()) {
           task->run();
-        } else if (!run_next_timer()) {
+        } else if (!run_next_event()) {
           return 0;  // nothing will ever happen again
         }
       }
@@ -97,7 +99,14 @@ class LockstepExecutor : public Executor {
     return nullptr;
   }
 
-  bool run_next_timer() {
+  bool run_next_event() {
+    const std::optional<Time> event = source_ == nullptr ? std::nullopt : source_->next();
+    if (event && (timers_.empty() || *event < timers_.next() ||
+                  (*event == timers_.next() && source_->before_timers()))) {
+      now_ = std::max(now_, *event);
+      source_->happen();
+      return true;
+    }
     if (timers_.empty()) return false;
     now_ = std::max(now_, timers_.next());
     timers_.fire(now_, now_);
@@ -107,6 +116,7 @@ class LockstepExecutor : public Executor {
   const SignalGuard signals_;  // from here on, so that a signal before run() ends the run, too
   Time now_;
   Timers<Time> timers_;
+  EventSource* source_ = nullptr;
   std::mutex mutex_;  // of what other threads may touch: the two below
   std::deque<PostedTask> tasks_;
   std::optional<int> exit_code_;

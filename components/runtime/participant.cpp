@@ -124,6 +124,13 @@ SampleOrigin origin_of(const dds::SampleInfo& info) {
 
 }  // namespace
 
+std::string endpoint_id(const EndpointGuid& guid) {
+  rtps::GUID_t fast;
+  std::copy_n(guid.begin(), fast.guidPrefix.size, fast.guidPrefix.value);
+  std::copy_n(guid.begin() + fast.guidPrefix.size, fast.entityId.size, fast.entityId.value);
+  return id_of(fast);
+}
+
 int domain_from_environment() {
   const char* variable = std::getenv("ROS_DOMAIN_ID");
   const std::string text = variable == nullptr ? "" : variable;

@@ -39,6 +39,9 @@ int domain_from_environment();
 /// The DDS GUID of a reader or writer: Endpoint::id, in a form that is cheap to compare.
 using EndpointGuid = std::array<std::uint8_t, 16>;
 
+/// The same as Endpoint::id has it.
+std::string endpoint_id(const EndpointGuid& guid);
+
 /// Where one sample came from.
 struct SampleOrigin {
   EndpointGuid writer{};
