@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/runtime/command_line.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <ifaddrs.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -64,30 +62,33 @@ void NetworkOptions::add_to(CLI::App& verb) {
   verb.add_option("--domain", domain_, "DDS domain; else ROS_DOMAIN_ID, else 0")
       ->check(CLI::Range(0, 232));
   verb.add_option("--vehicle", vehicle_, "Prefix of all topics, for several vehicles");
-  verb.add_option("--network", interfaces_,
-                  "Addresses of the interfaces to use; else only this machine is reached");
+  const char* group = "Network";
+  const auto add_list = [&](const char* name, std::vector<std::string>& list, const char* what) {
+    // One value each time, so that what follows is not taken for another.
+    verb.add_option(name, list, what)->expected(1)->take_all()->delimiter(',')->group(group);
+  };
+  add_list("--network", network_.interfaces,
+           "Name or address of an interface to use, several by repeating it; else only this "
+           "machine is reached");
+  add_list("--peer", network_.peers, "ADDRESS[:PORT] of a host to find by unicast");
+  add_list("--discovery-server", network_.discovery_servers,
+           "ADDRESS:PORT of a Fast DDS discovery server; the first has --server-id 0");
+  verb.add_option("--multicast", network_.multicast,
+                  "true or false: announce by multicast; else where there is no peer or server")
+      ->group(group);
+  verb.add_option("--multicast-ttl", network_.multicast_ttl, "Hops that announcements may take")
+      ->check(CLI::Range(0, 255))
+      ->group(group);
+  verb.add_option("--network-wait", network_.wait, "Wait so long for the interfaces [s]")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->group(group);
+  verb.add_option("--max-datagram", network_.max_datagram, "Largest UDP datagram [byte]")
+      ->check(CLI::Range(576, 65500))
+      ->group(group);
+  verb.add_option("--pace", network_.pace, "Limit for samples above 64 kB [byte/s]")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->group(group);
 }
-
-namespace {
-
-/// IPv4 addresses of this host.
-std::vector<std::string> local_addresses() {
-  std::vector<std::string> addresses;
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return addresses;
-  for (const ifaddrs* entry = all; entry != nullptr; entry = entry->ifa_next) {
-    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
-    const auto* address = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
-    char text[INET_ADDRSTRLEN];
-    if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text)) != nullptr) {
-      addresses.emplace_back(text);
-    }
-  }
-  freeifaddrs(all);
-  return addresses;
-}
-
-}  // namespace
 
 HostOptions NetworkOptions::host_options(const std::string& name) const {
   HostOptions options;
@@ -98,16 +99,8 @@ HostOptions NetworkOptions::host_options(const std::string& name) const {
   options.vehicle = vehicle_;
   options.participant.name = fmt::format("{}.{}", name, getpid());
   options.participant.domain = domain_ >= 0 ? domain_ : domain_from_environment();
-  for (const std::string& wanted : interfaces_) {
-    const std::vector<std::string> addresses = local_addresses();
-    if (std::find(addresses.begin(), addresses.end(), wanted) == addresses.end()) {
-      throw ConfigError(
-          fmt::format("--network {}: no interface of this host has that address; "
-                      "they have {}",
-                      wanted, fmt::join(addresses, ", ")));
-    }
-  }
-  if (!interfaces_.empty()) options.participant.interfaces = interfaces_;
+  wait_for_interfaces(network_);
+  options.participant.network = network_;
   return options;
 }
 

@@ -36,17 +36,19 @@ class ParameterOptions {
   std::vector<std::string> values_;
 };
 
-/// `--domain`, `--vehicle` and `--network`, for every verb that talks to others.
+/// `--domain`, `--vehicle`, `--network` and the rest of NetworkConfig, for every verb that talks to
+/// others.
 class NetworkOptions {
  public:
   void add_to(CLI::App& verb);
-  /// `name` is that of the process as others see it.
+  /// `name` is that of the process as others see it. Waits for the interfaces where that was asked
+  /// for.
   HostOptions host_options(const std::string& name) const;
 
  private:
   int domain_ = -1;
   std::string vehicle_;
-  std::vector<std::string> interfaces_;
+  NetworkConfig network_;
 };
 
 }  // namespace swiftlet

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/runtime/participant.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fmt/format.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -51,43 +50,19 @@ void bridge_log() {
   });
 }
 
-/// Number of processes on one machine that find each other without multicast.
-constexpr int kUnicastPeers = 32;
 /// Beyond it the ports of a domain would be above 65535.
 constexpr int kLastDomain = 232;
-constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options, const Gate& gate) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(options.name);
-
-  // UDP on the allowed interfaces only. No shared-memory transport: its segments outlive a killed
-  // process and can block the next start.
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = options.interfaces;
-  udp->maxInitialPeersRange = kUnicastPeers;
-  udp->sendBufferSize = kSocketBuffer;
-  udp->receiveBufferSize = kSocketBuffer;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(gated(udp, gate));
-
-  auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  using eprosima::fastrtps::Duration_t;
-  discovery.leaseDuration = Duration_t(6, 0);
-  discovery.leaseDuration_announcementperiod = Duration_t(1, 500'000'000);
-  discovery.initial_announcements.count = 10;
-  discovery.initial_announcements.period = Duration_t(0, 50'000'000);
+  apply(options.network, qos);
+  for (auto& transport : qos.transport().user_transports) transport = gated(transport, gate);
   if (options.isolated) {
-    discovery.ignoreParticipantFlags = static_cast<rtps::ParticipantFilteringFlags_t>(
-        rtps::FILTER_DIFFERENT_HOST | rtps::FILTER_DIFFERENT_PROCESS);
+    qos.wire_protocol().builtin.discovery_config.ignoreParticipantFlags =
+        static_cast<rtps::ParticipantFilteringFlags_t>(rtps::FILTER_DIFFERENT_HOST |
+                                                       rtps::FILTER_DIFFERENT_PROCESS);
   }
-  // Unicast to the first participants of this machine: loopback has no multicast route everywhere.
-  rtps::Locator_t local;
-  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, "127.0.0.1", 0, local);
-  rtps::Locator_t multicast;
-  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, "239.255.0.1", 0, multicast);
-  qos.wire_protocol().builtin.initialPeersList.push_back(local);
-  qos.wire_protocol().builtin.initialPeersList.push_back(multicast);
   return qos;
 }
 
@@ -163,7 +138,7 @@ class Participant::Impl {
       throw RuntimeError(
           fmt::format("cannot join DDS domain {}: are its UDP ports in use, or is "
                       "none of the interfaces ({}) up?",
-                      options.domain, fmt::join(options.interfaces, ", ")));
+                      options.domain, fmt::join(addresses_of(options.network), ", ")));
     }
     id_ = prefix_of(participant_->guid());
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
@@ -183,6 +158,9 @@ class Participant::Impl {
     const bool asynchronous = spec.qos.large && !options_.isolated;
     qos.publish_mode().kind =
         asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
+    if (asynchronous && options_.network.pace > 0) {
+      qos.publish_mode().flow_controller_name = kPacing;
+    }
     qos.reliable_writer_qos().times.heartbeatPeriod =
         eprosima::fastrtps::Duration_t(0, 100'000'000);
     // A writer waits at most this long for a reliable reader that does not keep up.

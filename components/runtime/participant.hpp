@@ -6,28 +6,22 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "components/runtime/graph.hpp"
 #include "components/runtime/message.hpp"
+#include "components/runtime/network.hpp"
 #include "components/runtime/qos.hpp"
+#include "components/runtime/runtime_error.hpp"
 #include "estimation/basics/time.hpp"
 
 namespace swiftlet {
 
-/// The middleware could not be started or used; `what()` says why and what to do.
-class RuntimeError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct ParticipantOptions {
   std::string name = "swiftlet";  ///< of the process, as others see it
   int domain = 0;                 ///< DDS domain, 0 to 232
-  /// Addresses of the interfaces that traffic may use. Nothing leaves this machine by default.
-  std::vector<std::string> interfaces = {"127.0.0.1"};
+  NetworkConfig network;          ///< nothing leaves this machine by default
   /// Hear and be heard by this process alone: samples are then delivered in the writer's thread.
   bool isolated = false;
 };
