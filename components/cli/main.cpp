@@ -8,6 +8,7 @@
 #include "components/bag/live_commands.hpp"
 #include "components/cli/verbs.hpp"
 #include "components/introspection/introspection_commands.hpp"
+#include "components/launch/launch_command.hpp"
 #include "components/replay/replay_command.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
 
   swiftlet::add_fly(app);
   swiftlet::add_run(app);
+  swiftlet::add_launch(app);
   swiftlet::add_gcs_commands(*app.add_subcommand("gcs", "Ground station: commands and status"));
   CLI::App* bag = app.add_subcommand("bag", "Recordings in MCAP");
   bag->require_subcommand(1);

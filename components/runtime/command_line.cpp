@@ -21,6 +21,11 @@ void ParameterOptions::add_to(CLI::App& verb) {
 Config ParameterOptions::load(const std::string& recorded) const {
   Config config =
       file_.empty() ? Config::parse(recorded, "recorded parameters") : Config::load(file_);
+  if (config.has("hosts")) {
+    // A system file: the rest of it is for `swiftlet launch`.
+    for (const std::string& key : config.keys()) (void)config.has(key);
+    config = config.child("parameters");
+  }
   const auto check_component = [&config](const std::string& name, const std::string& value) {
     if (ComponentRegistry::instance().find(name) != nullptr) return;
     std::vector<std::string> known;

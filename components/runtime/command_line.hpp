@@ -18,6 +18,8 @@ namespace swiftlet {
 ///
 ///     planner:
 ///       max_speed: 1.5
+///
+/// or is a system file of `swiftlet launch`, which has these sections under `parameters`.
 class ParameterOptions {
  public:
   void add_to(CLI::App& verb);

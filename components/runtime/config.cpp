@@ -142,7 +142,7 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
 
 void Config::set(const std::string& path, const std::string& value) {
   try {
-    file_->set_by_hand[path] = YAML::Load(value);
+    file_->set_by_hand[join_path(path_, path)] = YAML::Load(value);
   } catch (const YAML::Exception& error) {
     throw ConfigError(fmt::format("{}={}: not valid YAML: {}", path, value, error.msg));
   }

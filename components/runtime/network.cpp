@@ -25,8 +25,10 @@ namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr const char* kMulticastGroup = "239.255.0.1";  // of RTPS 2.2, 9.6.1.4
-/// Participants of one host that are found by unicast.
-constexpr int kUnicastPeers = 32;
+/// Participants of this machine, and of each peer, that are found by unicast. Every announcement is
+/// sent to each of them, so the number for peers is a matter of what the wire bears.
+constexpr int kLocalParticipants = 32;
+constexpr int kParticipantsOfPeer = 16;
 constexpr std::uint32_t kSocketBuffer = 4 << 20;
 constexpr std::uint64_t kPacingPeriodMs = 50;
 constexpr int kSmallestDatagram = 576;   // what every IPv4 host takes
@@ -42,7 +44,7 @@ rtps::Locator_t locator(const std::string& address, int port) {
 void add_transport(const NetworkConfig& network, dds::DomainParticipantQos& qos) {
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = addresses_of(network);
-  udp->maxInitialPeersRange = kUnicastPeers;
+  udp->maxInitialPeersRange = kLocalParticipants;
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
   udp->TTL = static_cast<std::uint8_t>(network.multicast_ttl);
@@ -70,10 +72,22 @@ void add_servers(const NetworkConfig& network, rtps::DiscoverySettings& discover
       network.see_all ? rtps::DiscoveryProtocol_t::SUPER_CLIENT : rtps::DiscoveryProtocol_t::CLIENT;
 }
 
+void add_peer(const std::string& peer, int domain, dds::DomainParticipantQos& qos) {
+  const HostAndPort place = parse_host_and_port("--peer", peer);
+  const std::string address = address_of_host("--peer", place.host);
+  auto& peers = qos.wire_protocol().builtin.initialPeersList;
+  if (place.port) peers.push_back(locator(address, *place.port));
+  for (int i = 0; !place.port && i < kParticipantsOfPeer; ++i) {
+    const std::uint32_t port = qos.wire_protocol().port.getUnicastPort(
+        static_cast<std::uint32_t>(domain), static_cast<std::uint32_t>(i));
+    peers.push_back(locator(address, static_cast<int>(port)));
+  }
+}
+
 }  // namespace
 
-NetworkConfig read_network(const Config& section) {
-  NetworkConfig network;
+NetworkConfig read_network(const Config& section, const NetworkConfig& base) {
+  NetworkConfig network = base;
   section.read("interfaces", network.interfaces);
   section.read("peers", network.peers);
   section.read("discovery_servers", network.discovery_servers);
@@ -161,7 +175,7 @@ void wait_for_interfaces(const NetworkConfig& network) {
   }
 }
 
-void apply(const NetworkConfig& network, dds::DomainParticipantQos& qos) {
+void apply(const NetworkConfig& network, int domain, dds::DomainParticipantQos& qos) {
   add_transport(network, qos);
   auto& builtin = qos.wire_protocol().builtin;
   auto& discovery = builtin.discovery_config;
@@ -178,11 +192,7 @@ void apply(const NetworkConfig& network, dds::DomainParticipantQos& qos) {
     // Unicast to the first participants of this machine: loopback has no multicast route
     // everywhere.
     builtin.initialPeersList.push_back(locator(kLoopback, 0));
-    for (const std::string& peer : network.peers) {
-      const HostAndPort place = parse_host_and_port("--peer", peer);
-      builtin.initialPeersList.push_back(
-          locator(address_of_host("--peer", place.host), place.port.value_or(0)));
-    }
+    for (const std::string& peer : network.peers) add_peer(peer, domain, qos);
   }
   if (network.uses_multicast()) {
     builtin.initialPeersList.push_back(locator(kMulticastGroup, 0));

@@ -23,7 +23,7 @@ struct NetworkConfig {
   /// Names ("eth0") or IPv4 addresses of this host. Where only peers or servers are named, the
   /// interfaces that the routes to them take.
   std::vector<std::string> interfaces;
-  /// Hosts to be found by unicast: "ADDRESS" asks for the first 32 participants of that host,
+  /// Hosts to be found by unicast: "ADDRESS" asks for the first 16 participants of that host,
   /// "ADDRESS:PORT" for one. A host name will do for an address.
   std::vector<std::string> peers;
   /// "ADDRESS:PORT" of each `fastdds discovery`; the first has --server-id 0, the next 1, ...
@@ -51,8 +51,8 @@ struct NetworkConfig {
   }
 };
 
-/// The section `network` of a file. Throws ConfigError.
-NetworkConfig read_network(const Config& section);
+/// The section `network` of a file, on top of `base`. Throws ConfigError.
+NetworkConfig read_network(const Config& section, const NetworkConfig& base = {});
 
 /// The same as options of the command line: {"--network", "eth0", "--peer", ...}.
 std::vector<std::string> to_arguments(const NetworkConfig& network);
@@ -69,6 +69,7 @@ void wait_for_interfaces(const NetworkConfig& network);
 inline constexpr const char* kPacing = "swiftlet_pacing";
 
 /// Fills in what `network` says of transports and discovery.
-void apply(const NetworkConfig& network, eprosima::fastdds::dds::DomainParticipantQos& qos);
+void apply(const NetworkConfig& network, int domain,
+           eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace swiftlet

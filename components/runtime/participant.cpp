@@ -56,7 +56,7 @@ constexpr int kLastDomain = 232;
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options, const Gate& gate) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(options.name);
-  apply(options.network, qos);
+  apply(options.network, options.domain, qos);
   for (auto& transport : qos.transport().user_transports) transport = gated(transport, gate);
   if (options.isolated) {
     qos.wire_protocol().builtin.discovery_config.ignoreParticipantFlags =
