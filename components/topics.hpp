@@ -4,6 +4,7 @@
 
 #include "components/runtime/component.hpp"
 #include "components/runtime/topic.hpp"
+#include "diagnostic_msgs.h"
 #include "geometry_msgs.h"
 #include "nav_msgs.h"
 #include "rosgraph_msgs.h"
@@ -46,6 +47,10 @@ inline constexpr Topic<nav_msgs::msg::Path> path{"path", qos::state};
 inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", qos::map};
 inline constexpr Topic<swiftlet_msgs::msg::Setpoint> setpoint{"setpoint", qos::command, 10ms};
 inline constexpr Topic<swiftlet_msgs::msg::MotorCommand> motors{"motors", qos::command, 4ms};
+
+/// How well things go, for people: read by every ROS 2 diagnostics viewer.
+inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> diagnostics{"diagnostics",
+                                                                          qos::state};
 
 // What only a simulator knows.
 inline constexpr Topic<swiftlet_msgs::msg::SimTruth> sim_truth{"sim/truth", qos::sensor, 10ms};

@@ -195,7 +195,10 @@ void apply(const NetworkConfig& network, int domain, dds::DomainParticipantQos& 
     for (const std::string& peer : network.peers) add_peer(peer, domain, qos);
   }
   if (network.uses_multicast()) {
-    builtin.initialPeersList.push_back(locator(kMulticastGroup, 0));
+    // With its port: Fast DDS 2.9 takes port 0 for the unicast ports of participants here, too.
+    const std::uint32_t port =
+        qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(domain));
+    builtin.initialPeersList.push_back(locator(kMulticastGroup, static_cast<int>(port)));
   } else {
     // A unicast locator of our own (any address, the usual port) keeps Fast DDS from joining the
     // multicast group.
