@@ -20,8 +20,8 @@ using namespace std::chrono_literals;
 constexpr Duration kTick = 20ms;
 constexpr Duration kLookForWriters = 250ms;
 constexpr Duration kReport = 1s;
-/// Of a datagram: IP, UDP and RTPS headers [byte].
-constexpr double kOverhead = 100.0;
+/// Of a datagram: Ethernet, IP, UDP and RTPS headers, and the heartbeat that comes with it [byte].
+constexpr double kOverhead = 160.0;
 constexpr int kDepth = 32;
 
 /// Carries the listed topics between the vehicle's domain and that of the link to the ground, in

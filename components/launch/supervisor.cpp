@@ -82,7 +82,8 @@ void Supervisor::handle_end(Place& place, const ChildEnd& end) {
   place.process.reset();
   if (stopping_) {
     log()->info("{}: {}", name, describe(end));
-    if (end.crashed()) failed_ = true;
+    // Some programs let the signal that we sent end them; that is what was asked for.
+    if (end.crashed() && end.signal != SIGTERM) failed_ = true;
     return;
   }
   if (!end.crashed()) {

@@ -90,6 +90,9 @@ void NetworkOptions::add_to(CLI::App& verb) {
   verb.add_option("--max-datagram", network_.max_datagram, "Largest UDP datagram [byte]")
       ->check(CLI::Range(576, 65500))
       ->group(group);
+  verb.add_option("--see-all", network_.see_all,
+                  "true or false: hear of all topics through a discovery server, or of one's own")
+      ->group(group);
   verb.add_option("--pace", network_.pace, "Limit for samples above 64 kB [byte/s]")
       ->check(CLI::Range(0, 1'000'000'000))
       ->group(group);

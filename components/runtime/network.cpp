@@ -96,6 +96,7 @@ NetworkConfig read_network(const Config& section, const NetworkConfig& base) {
   section.read("wait", network.wait, {0.0, 3600.0});
   section.read("max_datagram", network.max_datagram, {0, kLargestDatagram});
   section.read("pace", network.pace, {0, 1e9});
+  section.read("see_all", network.see_all);
   if (network.max_datagram > 0 && network.max_datagram < kSmallestDatagram) {
     section.fail("max_datagram",
                  fmt::format("'max_datagram' must be 0 (no limit) or at least {}, not {}",
@@ -136,6 +137,7 @@ std::vector<std::string> to_arguments(const NetworkConfig& network) {
     add("--max-datagram", std::to_string(network.max_datagram));
   }
   if (network.pace != standard.pace) add("--pace", std::to_string(network.pace));
+  if (network.see_all != standard.see_all) add("--see-all", network.see_all ? "true" : "false");
   return arguments;
 }
 

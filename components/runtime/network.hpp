@@ -38,9 +38,9 @@ struct NetworkConfig {
   int max_datagram = 0;
   /// Samples above 64 kB are sent no faster than this [byte/s]; 0: as fast as it goes.
   int pace = 0;
-  /// Through a discovery server, a process hears only of its own topics. To hear of all, as tools
-  /// that show the graph must, it has to be a "super client".
-  bool see_all = false;
+  /// Whether a process hears through a discovery server of all topics, or only of its own. What
+  /// shows the graph, records or relays needs all; it costs some discovery traffic at the start.
+  bool see_all = true;
 
   /// Whether anything leaves this machine.
   bool loopback_only() const {
