@@ -47,11 +47,12 @@ Supervisor::~Supervisor() {
 }
 
 int Supervisor::run() {
-  while (!done()) {
+  while (true) {
     const Clock::time_point now = Clock::now();
     for (Place& place : places_) {
       if (!stopping_ && place.start_at && *place.start_at <= now) start(place);
     }
+    if (done()) break;
     wait_for_something();
     signalfd_siginfo signal;
     if (read(signals_, &signal, sizeof(signal)) == sizeof(signal)) {
