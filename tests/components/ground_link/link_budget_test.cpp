@@ -101,6 +101,18 @@ TEST(LinkBudget, EssentialMessagesAllCrossAndTheRestShareWhatRemains) {
   EXPECT_NEAR(static_cast<double>(budget.counts(0).over_budget), 3000.0 - 180.0, 40.0);
 }
 
+TEST(LinkBudget, EssentialMessagesDoNotWaitForALargeOneToBePaidFor) {
+  LinkBudget budget({1'000.0, 0.25, 32}, {{}, {5.0, true, false}});
+  Time now{};
+  budget.offer(0, payload(0), 100'000.0);
+  ASSERT_EQ(budget.depart(now).size(), 1U);
+  for (int i = 0; i < 20; ++i) {
+    now += 200ms;
+    budget.offer(1, payload(1), 100.0);
+    EXPECT_EQ(budget.depart(now).size(), 1U) << i;
+  }
+}
+
 TEST(LinkBudget, WhatStandsFirstIsServedFirst) {
   LinkBudget budget({1'000.0, 0.25, 4}, {{10.0, false, false}, {10.0, false, false}});
   Time now{};
