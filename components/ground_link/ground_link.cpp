@@ -158,6 +158,8 @@ class GroundLink : public Component {
   }
 
   void send(Time now) {
+    // The link's writers are not the component's own, which wait by themselves.
+    if (!active()) return;
     for (const LinkBudget::Departure& departure : budget_.depart(now)) {
       outward_[departure.topic].writer->write(departure.message);
     }

@@ -61,7 +61,7 @@ ProcessSpec read_process(const Config& section) {
   section.read("components", process.components);
   section.read("verb", process.verb);
   section.read("arguments", process.arguments);
-  section.read("standby", process.standby, {0, 15});
+  section.read("standby", process.standby, {0, 9});
   if (process.components.empty() == process.verb.empty()) {
     section.fail({}, "a process has either 'components' or a 'verb', such as [bag, record]");
   }
