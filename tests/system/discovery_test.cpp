@@ -103,6 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Way{"DiscoveryServer", {"--discovery-server", "10.9.0.1:11811"}, true},
                     Way{"ServerOwnTopics",
                         {"--discovery-server", "10.9.0.1:11811", "--see-all", "false"},
+                        true,
                         true}),
     [](const auto& test) { return test.param.name; });
 
