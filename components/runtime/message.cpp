@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "all_messages.hpp"
+#include "components/runtime/plain_types.hpp"
 
 namespace swiftlet {
 namespace {
@@ -56,6 +57,8 @@ class GeneratedType : public MessageType {
       return false;  // a sequence longer than memory: the length is garbage
     }
   }
+
+  std::size_t plain_size() const override { return IsPlain<T>::value ? sizeof(T) : 0; }
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "estimation/basics/result.hpp"
@@ -32,6 +33,9 @@ class MessageType {
                                 std::size_t capacity) const = 0;
   /// False, with `message` in an unspecified but valid state, where the bytes are not of this type.
   virtual bool deserialize(const std::uint8_t* bytes, std::size_t size, void* message) const = 0;
+  /// Bytes of an object of a plain type, which looks in memory as it does in CDR, so that writers
+  /// and readers may share it; 0 for all other types.
+  virtual std::size_t plain_size() const = 0;
 
  protected:
   MessageType(const std::string& package, const std::string& name)
@@ -41,6 +45,10 @@ class MessageType {
   std::string name_;
   std::string dds_name_;
 };
+
+/// Whether T is a plain type: of fixed size and with the layout of CDR (runtime/plain_types.hpp).
+template <class T>
+struct IsPlain : std::false_type {};
 
 /// The type with that C++ class, for every struct of the IDL files.
 template <class T>

@@ -13,6 +13,7 @@ namespace {
 
 /// A first guess for payload buffers; they grow to what a sample needs.
 constexpr std::uint32_t kTypicalSize = 512;
+constexpr std::uint32_t kEncapsulation = 4;
 
 std::size_t size_of(const WireSample& sample) {
   return sample.cdr != nullptr ? sample.cdr->size() : sample.type->serialized_size(sample.message);
@@ -22,7 +23,10 @@ std::size_t size_of(const WireSample& sample) {
 
 WireType::WireType(const std::string& dds_name) {
   setName(dds_name.c_str());
-  m_typeSize = kTypicalSize;
+  const MessageType* type = find_message_type(dds_name);
+  is_plain_ = type != nullptr && type->plain_size() > 0;
+  m_typeSize = is_plain_ ? kEncapsulation + static_cast<std::uint32_t>(type->plain_size())
+                         : kTypicalSize;
   m_isGetKeyDefined = false;
 }
 

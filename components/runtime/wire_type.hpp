@@ -20,7 +20,8 @@ struct WireSample {
 
 /// The only TopicDataType of the project. DDS allows one type support for a type name in a
 /// participant; with this one, a component can read objects and a recorder bytes of one topic in
-/// one process, and types that the IDL files lack can still be recorded and played.
+/// one process, and types that the IDL files lack can still be recorded and played. Samples of plain
+/// types can be loaned: those are handed over as they lie in memory, without a WireSample.
 class WireType : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit WireType(const std::string& dds_name);
@@ -30,8 +31,13 @@ class WireType : public eprosima::fastdds::dds::TopicDataType {
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
   void* createData() override;
   void deleteData(void* data) override;
+  bool is_bounded() const override { return is_plain_; }
+  bool is_plain() const override { return is_plain_; }
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle,
               bool force_md5) override;
+
+ private:
+  bool is_plain_ = false;
 };
 
 }  // namespace swiftlet
