@@ -15,6 +15,7 @@
 #include "components/runtime/executor.hpp"
 #include "components/runtime/faults.hpp"
 #include "components/runtime/input_watch.hpp"
+#include "components/runtime/loan.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/message.hpp"
 #include "components/runtime/participant.hpp"
@@ -30,6 +31,12 @@ class Publisher {
   Publisher() = default;
   explicit Publisher(std::shared_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void publish(const T& message) { writer_->write(&message); }
+  /// Of plain types: a frame to fill in place, and to publish without a copy.
+  Loan<T> loan() {
+    static_assert(IsPlain<T>::value, "only plain types can be loaned (runtime/plain_types.hpp)");
+    return Loan<T>(writer_);
+  }
+  void publish(Loan<T>&& loan) { Loan<T>(std::move(loan)).publish(); }
   /// Readers that get what is published, in whichever process.
   int matched_readers() const { return writer_->matched_readers(); }
 
@@ -171,11 +178,19 @@ class Component {
   class Subscription : public SubscriptionTask {
    public:
     Subscription(Mailbox& mailbox, InputWatch watch, Callback callback)
-        : SubscriptionTask(mailbox), watch_(std::move(watch)), callback_(std::move(callback)) {}
+        : SubscriptionTask(mailbox), watch_(std::move(watch)), callback_(std::move(callback)) {
+      const bool in_place = message_type<T>().plain_size() > 0;
+      if (!in_place) message_ = std::make_unique<T>();
+    }
     void dispatch_one(Reader& reader) override {
       SampleOrigin origin;
-      if (reader.take(&message_, &origin) && watch_.accept(origin.writer, now())) {
-        callback_(std::as_const(message_));
+      const auto hand_over = [this, &origin](const void* message) {
+        if (watch_.accept(origin.writer, now())) callback_(*static_cast<const T*>(message));
+      };
+      if (message_ == nullptr) {
+        reader.take_in_place(hand_over, &origin);
+      } else if (reader.take(message_.get(), &origin)) {
+        hand_over(message_.get());
       }
     }
     void sample_rate(Time now) override { watch_.sample_rate(now); }
@@ -185,7 +200,9 @@ class Component {
 
    private:
     InputWatch watch_;
-    T message_;  // kept, so that strings and sequences keep their memory
+    /// Kept, so that strings and sequences keep their memory. None for plain types: the callback gets
+    /// the sample where the writer put it.
+    std::unique_ptr<T> message_;
     Callback callback_;
   };
 

@@ -16,12 +16,16 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "components/runtime/config.hpp"
 #include "components/runtime/discovery_listener.hpp"
+#include "components/runtime/endpoint_qos.hpp"
 #include "components/runtime/gated_transport.hpp"
 #include "components/runtime/log.hpp"
+#include "components/runtime/shared_memory.hpp"
 #include "components/runtime/wire_type.hpp"
 
 namespace swiftlet {
@@ -64,24 +68,6 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options, con
                                                        rtps::FILTER_DIFFERENT_PROCESS);
   }
   return qos;
-}
-
-/// Settings that a reader and a writer have in common.
-template <class Qos>
-void apply_profile(const EndpointSpec& spec, Qos& qos) {
-  qos.reliability().kind =
-      spec.qos.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.durability().kind =
-      spec.qos.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
-  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = spec.qos.depth;
-  qos.resource_limits().max_instances = 1;
-  qos.resource_limits().max_samples = spec.qos.depth;
-  qos.resource_limits().max_samples_per_instance = spec.qos.depth;
-  qos.resource_limits().allocated_samples = std::min(spec.qos.depth, 8);
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  qos.data_sharing().off();
-  qos.user_data().setValue({spec.component.begin(), spec.component.end()});
 }
 
 EndpointGuid binary(const rtps::GUID_t& guid) {
@@ -128,6 +114,7 @@ class Participant::Impl {
         graph_([](const Conflict& conflict) { logger("graph")->error(describe(conflict)); }),
         listener_(graph_) {
     bridge_log();
+    if (!options.isolated) remove_orphaned_segments();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     const auto gate = std::make_shared<std::atomic<bool>>(false);
     participant_ = factory->create_participant(static_cast<dds::DomainId_t>(options.domain),
@@ -152,20 +139,11 @@ class Participant::Impl {
   }
 
   dds::DataWriter* make_writer(const EndpointSpec& spec) {
-    dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
-    apply_profile(spec, qos);
-    // Fragments of large samples need a sending thread; within one process nothing is sent.
-    const bool asynchronous = spec.qos.large && !options_.isolated;
-    qos.publish_mode().kind =
-        asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
-    if (asynchronous && options_.network.pace > 0) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    dds::DataWriterQos qos = writer_qos(spec, shares_memory(spec), options_.isolated);
+    if (qos.publish_mode().kind == dds::ASYNCHRONOUS_PUBLISH_MODE && options_.network.pace > 0) {
       qos.publish_mode().flow_controller_name = kPacing;
     }
-    qos.reliable_writer_qos().times.heartbeatPeriod =
-        eprosima::fastrtps::Duration_t(0, 100'000'000);
-    // A writer waits at most this long for a reliable reader that does not keep up.
-    qos.reliability().max_blocking_time = eprosima::fastrtps::Duration_t(0, 20'000'000);
-    const std::lock_guard<std::mutex> lock(mutex_);
     dds::DataWriter* writer = publisher_->create_datawriter(topic(spec), qos);
     if (writer == nullptr) throw RuntimeError(fmt::format("cannot write topic '{}'", spec.topic));
     graph_.add(endpoint(spec, writer->guid(), true));
@@ -173,9 +151,8 @@ class Participant::Impl {
   }
 
   dds::DataReader* make_reader(const EndpointSpec& spec, dds::DataReaderListener* listener) {
-    dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
-    apply_profile(spec, qos);
     const std::lock_guard<std::mutex> lock(mutex_);
+    const dds::DataReaderQos qos = reader_qos(spec, shares_memory(spec));
     dds::DataReader* reader = subscriber_->create_datareader(topic(spec), qos, listener,
                                                              dds::StatusMask::data_available()
                                                                  << dds::StatusMask::sample_lost());
@@ -217,6 +194,21 @@ class Participant::Impl {
     return topic;
   }
 
+  /// Plain types are shared with other processes of this machine. The first of them claims the
+  /// segments of this process; where that fails, samples are copied as all others are.
+  bool shares_memory(const EndpointSpec& spec) {
+    const MessageType* type = find_message_type(spec.type);
+    if (options_.isolated || type == nullptr || type->plain_size() == 0) return false;
+    if (claim_) return true;
+    try {
+      claim_.emplace(id_);
+      return true;
+    } catch (const std::system_error& error) {
+      logger("dds")->warn("frames of '{}' are copied, not shared: {}", spec.topic, error.what());
+      return false;
+    }
+  }
+
   Endpoint endpoint(const EndpointSpec& spec, const rtps::GUID_t& guid, bool is_writer) const {
     return {id_of(guid), spec.topic, spec.type, is_writer, spec.qos, spec.component, options_.name};
   }
@@ -230,6 +222,7 @@ class Participant::Impl {
   dds::Publisher* publisher_ = nullptr;
   dds::Subscriber* subscriber_ = nullptr;
   std::map<std::string, dds::Topic*> topics_;
+  std::optional<SharedMemoryClaim> claim_;
 };
 
 namespace {
@@ -254,6 +247,16 @@ class DdsWriter : public Writer {
     writer_->write(&sample);
   }
 
+  void* loan() override {
+    void* sample = nullptr;
+    const bool lent = writer_->loan_sample(sample) == ReturnCode_t::RETCODE_OK;
+    return lent ? sample : nullptr;
+  }
+  void write_loan(void* sample) override {
+    if (!writer_->write(sample)) writer_->discard_loan(sample);
+  }
+  void discard_loan(void* sample) override { writer_->discard_loan(sample); }
+
   int matched_readers() const override {
     dds::PublicationMatchedStatus status;
     writer_->get_publication_matched_status(status);
@@ -272,6 +275,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
   DdsReader(std::shared_ptr<Impl> impl, const EndpointSpec& spec, std::function<void()> on_sample)
       : impl_(std::move(impl)),
         type_(spec.message_type),
+        component_(spec.component),
         on_sample_(std::move(on_sample)),
         reader_(impl_->make_reader(spec, this)) {}
   ~DdsReader() override { impl_->remove(reader_); }
@@ -289,6 +293,25 @@ class DdsReader : public Reader, private dds::DataReaderListener {
     return take(sample, origin);
   }
 
+  bool take_in_place(const std::function<void(const void*)>& use, SampleOrigin* origin) override {
+    // The element type does not matter: a loan is a sequence of pointers.
+    dds::LoanableSequence<std::uint8_t> samples;
+    dds::SampleInfoSeq infos;
+    while (reader_->take(samples, infos, 1) == ReturnCode_t::RETCODE_OK) {
+      const bool valid = infos[0].valid_data;
+      if (valid) {
+        note_origin(infos[0], origin);
+        use(&samples[0]);
+        if (!reader_->is_sample_valid(&samples[0], &infos[0])) note_overwritten();
+      }
+      reader_->return_loan(samples, infos);
+      if (valid) return true;
+    }
+    return false;
+  }
+
+  std::uint64_t overwritten() const override { return overwritten_; }
+
   int matched_writers() const override {
     dds::SubscriptionMatchedStatus status;
     reader_->get_subscription_matched_status(status);
@@ -303,10 +326,24 @@ class DdsReader : public Reader, private dds::DataReaderListener {
     // A sample without data says that a writer is gone; the next may have some.
     while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
-      if (origin != nullptr) *origin = origin_of(info);
+      note_origin(info, origin);
       return true;
     }
     return false;
+  }
+
+  static void note_origin(const dds::SampleInfo& info, SampleOrigin* origin) {
+    if (origin != nullptr) *origin = origin_of(info);
+  }
+
+  void note_overwritten() {
+    // Each is counted, the log hears of the 1st, the 2nd, the 4th, ...
+    const std::uint64_t count = ++overwritten_;
+    if ((count & (count - 1)) != 0) return;
+    logger(component_)->error(
+        "a frame of '{}' was overwritten while it was being read ({} so far): the callback takes "
+        "longer than the writer for its next frames; copy what it needs, or do less in it",
+        reader_->get_topicdescription()->get_name(), count);
   }
 
   void on_data_available(dds::DataReader*) override { on_sample_(); }
@@ -316,8 +353,10 @@ class DdsReader : public Reader, private dds::DataReaderListener {
 
   std::shared_ptr<Impl> impl_;
   const MessageType* type_;
+  std::string component_;
   std::function<void()> on_sample_;
   std::atomic<std::uint64_t> lost_{0};
+  std::atomic<std::uint64_t> overwritten_{0};
   dds::DataReader* reader_;
 };
 

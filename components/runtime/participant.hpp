@@ -51,6 +51,12 @@ class Writer {
   /// `message` points to an object of the type that the writer was made for.
   virtual void write(const void* message) = 0;
   virtual void write(const Cdr& cdr) = 0;
+  /// Memory for the next sample of a plain type, with unspecified content, where readers on this
+  /// machine will find it; null where the type is not plain, or all memory is lent. Must be given back
+  /// by one of the two below.
+  virtual void* loan() = 0;
+  virtual void write_loan(void* sample) = 0;
+  virtual void discard_loan(void* sample) = 0;
   /// Readers that get what is written, in whichever process.
   virtual int matched_readers() const = 0;
 };
@@ -63,6 +69,12 @@ class Reader {
   /// object of the type that the reader was made for.
   virtual bool take(void* message, SampleOrigin* origin = nullptr) = 0;
   virtual bool take(Cdr& cdr, SampleOrigin* origin = nullptr) = 0;
+  /// Calls `use` with the oldest sample of a plain type, at the place where the writer put it, valid
+  /// until `use` returns; false where there is none. A writer that is so far ahead that it needs the
+  /// memory again overwrites it meanwhile: that is counted in overwritten(), and logged.
+  virtual bool take_in_place(const std::function<void(const void*)>& use,
+                             SampleOrigin* origin = nullptr) = 0;
+  virtual std::uint64_t overwritten() const = 0;
   virtual int matched_writers() const = 0;
   /// Samples that DDS reports as lost on the way.
   virtual std::uint64_t lost() const = 0;
