@@ -10,9 +10,9 @@
 namespace swiftlet {
 
 /// A frame that is being written in the memory where readers will find it, to be handed to
-/// Publisher::publish. One that is not published gives its memory back. Its content is unspecified at
-/// first: what an earlier frame left there. Where all memory is lent or readers keep it, the frame
-/// lies elsewhere and is copied when it is published; nobody but a stopwatch notices.
+/// Publisher::publish. One that is not published gives its memory back. Its content is unspecified
+/// at first: what an earlier frame left there. Where all memory is lent or readers keep it, the
+/// frame lies elsewhere and is copied when it is published; nobody but a stopwatch notices.
 template <class T>
 class Loan {
  public:

@@ -198,7 +198,8 @@ class Participant::Impl {
   /// segments of this process; where that fails, samples are copied as all others are.
   bool shares_memory(const EndpointSpec& spec) {
     const MessageType* type = find_message_type(spec.type);
-    if (options_.isolated || type == nullptr || type->plain_size() == 0) return false;
+    if (options_.isolated || !options_.shares_memory || type == nullptr || type->plain_size() == 0)
+      return false;
     if (claim_) return true;
     try {
       claim_.emplace(id_);
@@ -227,24 +228,32 @@ class Participant::Impl {
 
 namespace {
 
+/// For messages that must not flood the log.
+bool is_power_of_two(std::uint64_t count) {
+  return (count & (count - 1)) == 0;
+}
+
 template <class Impl>
 class DdsWriter : public Writer {
  public:
   DdsWriter(std::shared_ptr<Impl> impl, const EndpointSpec& spec)
-      : impl_(std::move(impl)), type_(spec.message_type), writer_(impl_->make_writer(spec)) {}
+      : impl_(std::move(impl)),
+        type_(spec.message_type),
+        component_(spec.component),
+        writer_(impl_->make_writer(spec)) {}
   ~DdsWriter() override { impl_->remove(writer_); }
 
   void write(const void* message) override {
     WireSample sample;
     sample.type = type_;
     sample.message = message;
-    writer_->write(&sample);
+    note(writer_->write(&sample));
   }
 
   void write(const Cdr& cdr) override {
     WireSample sample;
     sample.cdr = &cdr;
-    writer_->write(&sample);
+    note(writer_->write(&sample));
   }
 
   void* loan() override {
@@ -253,7 +262,9 @@ class DdsWriter : public Writer {
     return lent ? sample : nullptr;
   }
   void write_loan(void* sample) override {
-    if (!writer_->write(sample)) writer_->discard_loan(sample);
+    const bool sent = writer_->write(sample);
+    if (!sent) writer_->discard_loan(sample);
+    note(sent);
   }
   void discard_loan(void* sample) override { writer_->discard_loan(sample); }
 
@@ -264,8 +275,20 @@ class DdsWriter : public Writer {
   }
 
  private:
+  /// What was not sent is said, the 1st, the 2nd, the 4th, ... time.
+  void note(bool sent) {
+    if (sent || !is_power_of_two(++unsent_)) return;
+    logger(component_)
+        ->error(
+            "a sample of '{}' was not sent ({} so far): a reliable reader does not keep up, or the "
+            "memory for samples is used up",
+            writer_->get_topic()->get_name(), unsent_);
+  }
+
   std::shared_ptr<Impl> impl_;
   const MessageType* type_;
+  std::string component_;
+  std::uint64_t unsent_ = 0;
   dds::DataWriter* writer_;
 };
 
@@ -337,13 +360,14 @@ class DdsReader : public Reader, private dds::DataReaderListener {
   }
 
   void note_overwritten() {
-    // Each is counted, the log hears of the 1st, the 2nd, the 4th, ...
     const std::uint64_t count = ++overwritten_;
-    if ((count & (count - 1)) != 0) return;
-    logger(component_)->error(
-        "a frame of '{}' was overwritten while it was being read ({} so far): the callback takes "
-        "longer than the writer for its next frames; copy what it needs, or do less in it",
-        reader_->get_topicdescription()->get_name(), count);
+    if (!is_power_of_two(count)) return;
+    logger(component_)
+        ->error(
+            "a frame of '{}' was overwritten while it was being read ({} so far): the callback "
+            "takes "
+            "longer than the writer for its next frames; copy what it needs, or do less in it",
+            reader_->get_topicdescription()->get_name(), count);
   }
 
   void on_data_available(dds::DataReader*) override { on_sample_(); }

@@ -24,6 +24,9 @@ struct ParticipantOptions {
   NetworkConfig network;          ///< nothing leaves this machine by default
   /// Hear and be heard by this process alone: samples are then delivered in the writer's thread.
   bool isolated = false;
+  /// Frames of plain types are shared with other processes of this machine. False: they are copied,
+  /// as for processes that do not see the same /dev/shm.
+  bool shares_memory = true;
 };
 
 /// The domain that ROS_DOMAIN_ID asks for, 0 where it is not set. Throws ConfigError where it is
@@ -52,8 +55,8 @@ class Writer {
   virtual void write(const void* message) = 0;
   virtual void write(const Cdr& cdr) = 0;
   /// Memory for the next sample of a plain type, with unspecified content, where readers on this
-  /// machine will find it; null where the type is not plain, or all memory is lent. Must be given back
-  /// by one of the two below.
+  /// machine will find it; null where the type is not plain, or all memory is lent. Must be given
+  /// back by one of the two below.
   virtual void* loan() = 0;
   virtual void write_loan(void* sample) = 0;
   virtual void discard_loan(void* sample) = 0;
@@ -69,9 +72,9 @@ class Reader {
   /// object of the type that the reader was made for.
   virtual bool take(void* message, SampleOrigin* origin = nullptr) = 0;
   virtual bool take(Cdr& cdr, SampleOrigin* origin = nullptr) = 0;
-  /// Calls `use` with the oldest sample of a plain type, at the place where the writer put it, valid
-  /// until `use` returns; false where there is none. A writer that is so far ahead that it needs the
-  /// memory again overwrites it meanwhile: that is counted in overwritten(), and logged.
+  /// Calls `use` with the oldest sample of a plain type, at the place where the writer put it,
+  /// valid until `use` returns; false where there is none. A writer that is so far ahead that it
+  /// needs the memory again overwrites it meanwhile: that is counted in overwritten(), and logged.
   virtual bool take_in_place(const std::function<void(const void*)>& use,
                              SampleOrigin* origin = nullptr) = 0;
   virtual std::uint64_t overwritten() const = 0;

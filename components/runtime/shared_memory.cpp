@@ -66,10 +66,11 @@ int remove_orphaned_segments(const fs::path& folder) {
   for (const fs::path& claim : files_of(folder, kClaim)) {
     const int descriptor = open(claim.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor < 0) continue;  // another user's, or gone
-    const bool owner_is_dead = flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_at(descriptor, claim);
+    const bool owner_is_dead =
+        flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_at(descriptor, claim);
     if (owner_is_dead) {
       const std::string guid_prefix = claim.filename().string().substr(kClaim.size());
-      for (const fs::path& segment : files_of(folder, kSegment + guid_prefix)) {
+      for (const fs::path& segment : files_of(folder, kSegment + guid_prefix + "_")) {
         removed += unlink(segment.c_str()) == 0 ? 1 : 0;
       }
       removed += unlink(claim.c_str()) == 0 ? 1 : 0;  // last: until then it can be found again

@@ -10,11 +10,11 @@ namespace swiftlet {
 /// Where Fast DDS keeps the memory that writers and readers of plain frames share.
 inline constexpr const char* kSharedMemory = "/dev/shm";
 
-/// Says that this process lives and owns the segments of a participant. A segment's name begins with
-/// the participant's GUID prefix, but nothing in it tells whether its process still lives, so that
-/// Fast DDS leaves those of a killed process for ever. The claim is a file beside them, locked for
-/// as long as the process lives: who gets the lock has proof that the owner is dead. (A process id
-/// proves nothing: it may be used again, or belong to another container.)
+/// Says that this process lives and owns the segments of a participant. A segment's name begins
+/// with the participant's GUID prefix, but nothing in it tells whether its process still lives, so
+/// that Fast DDS leaves those of a killed process for ever. The claim is a file beside them, locked
+/// for as long as the process lives: who gets the lock has proof that the owner is dead. (A process
+/// id proves nothing: it may be used again, or belong to another container.)
 class SharedMemoryClaim {
  public:
   /// `guid_prefix` as it is part of the segments' names. Throws std::system_error where `folder`

@@ -25,8 +25,8 @@ WireType::WireType(const std::string& dds_name) {
   setName(dds_name.c_str());
   const MessageType* type = find_message_type(dds_name);
   is_plain_ = type != nullptr && type->plain_size() > 0;
-  m_typeSize = is_plain_ ? kEncapsulation + static_cast<std::uint32_t>(type->plain_size())
-                         : kTypicalSize;
+  m_typeSize =
+      is_plain_ ? kEncapsulation + static_cast<std::uint32_t>(type->plain_size()) : kTypicalSize;
   m_isGetKeyDefined = false;
 }
 

@@ -20,8 +20,8 @@ struct WireSample {
 
 /// The only TopicDataType of the project. DDS allows one type support for a type name in a
 /// participant; with this one, a component can read objects and a recorder bytes of one topic in
-/// one process, and types that the IDL files lack can still be recorded and played. Samples of plain
-/// types can be loaned: those are handed over as they lie in memory, without a WireSample.
+/// one process, and types that the IDL files lack can still be recorded and played. Samples of
+/// plain types can be loaned: those are handed over as they lie in memory, without a WireSample.
 class WireType : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit WireType(const std::string& dds_name);

@@ -29,12 +29,12 @@ class CyclonePeer : public Peer {
   explicit CyclonePeer(const PeerOptions& options) : options_(options) {
     setenv("CYCLONEDDS_URI", kConfiguration, 0);
     participant_ = checked(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr));
-    const dds_entity_t topic = checked(dds_create_topic(
-        participant_, &sensor_msgs_msg_Image_desc, "bench", nullptr, nullptr));
+    const dds_entity_t topic = checked(
+        dds_create_topic(participant_, &sensor_msgs_msg_Image_desc, "bench", nullptr, nullptr));
     dds_qos_t* qos = dds_create_qos();
-    dds_qset_reliability(
-        qos, options.large() ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
-        DDS_MSECS(20));
+    dds_qset_reliability(qos,
+                         options.large() ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+                         DDS_MSECS(20));
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, options.depth());
     if (options.sends) {
       writer_ = checked(dds_create_writer(participant_, topic, qos, nullptr));

@@ -110,7 +110,8 @@ class FastDdsPeer : public Peer, private dds::DataReaderListener {
     } else {
       void* memory = nullptr;
       using Init = dds::DataWriter::LoanInitializationKind;
-      if (writer_->loan_sample(memory, Init::NO_LOAN_INITIALIZATION) != ReturnCode_t::RETCODE_OK) return;
+      if (writer_->loan_sample(memory, Init::NO_LOAN_INITIALIZATION) != ReturnCode_t::RETCODE_OK)
+        return;
       T& frame = *static_cast<T*>(memory);
       frame.info().stamp().sec(std::int32_t(mark.sent_ns / kSecond));
       frame.info().stamp().nanosec(std::uint32_t(mark.sent_ns % kSecond));
@@ -132,8 +133,8 @@ class FastDdsPeer : public Peer, private dds::DataReaderListener {
     const bool fragments = options_.large() && !options_.receives;
     qos.publish_mode().kind =
         fragments ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
-    writer_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT)
-                  ->create_datawriter(topic_, qos);
+    writer_ =
+        participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic_, qos);
     if (writer_ == nullptr) throw std::runtime_error("no writer");
     if constexpr (std::is_same_v<T, Image>) {
       message_.encoding("mono8");
@@ -146,9 +147,9 @@ class FastDdsPeer : public Peer, private dds::DataReaderListener {
     apply(options_, qos);
     auto* subscriber = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
     const bool waits = has(options_.variant, "waitset");
-    reader_ = subscriber->create_datareader(topic_, qos, waits ? nullptr : this,
-                                            waits ? dds::StatusMask::none()
-                                                  : dds::StatusMask::data_available());
+    reader_ = subscriber->create_datareader(
+        topic_, qos, waits ? nullptr : this,
+        waits ? dds::StatusMask::none() : dds::StatusMask::data_available());
     if (reader_ == nullptr) throw std::runtime_error("no reader");
     if (waits) waiter_ = std::thread([this] { wait(); });
   }

@@ -35,7 +35,9 @@ constexpr auto kSilence = 3s;  // the rest was lost
 double cpu_us() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto us = [](const timeval& time) { return 1e6 * double(time.tv_sec) + double(time.tv_usec); };
+  const auto us = [](const timeval& time) {
+    return 1e6 * double(time.tv_sec) + double(time.tv_usec);
+  };
   return us(usage.ru_utime) + us(usage.ru_stime);
 }
 
@@ -71,7 +73,9 @@ class Recorder {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::sort(latencies_us_.begin(), latencies_us_.end());
     const auto quantile = [&](double q) {
-      return latencies_us_.empty() ? 0.0 : latencies_us_[std::size_t(q * double(latencies_us_.size() - 1))];
+      return latencies_us_.empty()
+                 ? 0.0
+                 : latencies_us_[std::size_t(q * double(latencies_us_.size() - 1))];
     };
     return fmt::format(R"("received": {}, "p50_us": {:.1f}, "p99_us": {:.1f}, "cpu_us": {:.2f})",
                        latencies_us_.size(), quantile(0.5), quantile(0.99),

@@ -26,8 +26,8 @@ struct Mark {
 inline constexpr std::int64_t kSecond = 1'000'000'000;
 
 struct PeerOptions {
-  std::string variant;       ///< one of variants()
-  std::size_t bytes = 0;     ///< of image data
+  std::string variant;    ///< one of variants()
+  std::size_t bytes = 0;  ///< of image data
   bool sends = false;
   bool receives = false;
   /// To be called in the first line of the receiver's callback.

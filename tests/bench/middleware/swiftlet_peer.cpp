@@ -86,10 +86,11 @@ class Receiver : public Component {
  private:
   template <class Frame>
   void subscribe_frames(const PeerOptions& options) {
-    subscribe(Topic<Frame>{"bench", qos::bulk}, [on_message = options.on_message](const Frame& frame) {
-      const auto& stamp = frame.info().stamp();
-      on_message({stamp.sec() * kSecond + stamp.nanosec(), frame.info().width()});
-    });
+    subscribe(Topic<Frame>{"bench", qos::bulk},
+              [on_message = options.on_message](const Frame& frame) {
+                const auto& stamp = frame.info().stamp();
+                on_message({stamp.sec() * kSecond + stamp.nanosec(), frame.info().width()});
+              });
   }
 };
 
