@@ -55,6 +55,32 @@ inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> diagnostics{"diagn
 // What only a simulator knows.
 inline constexpr Topic<swiftlet_msgs::msg::SimTruth> sim_truth{"sim/truth", qos::sensor, 10ms};
 
+/// The names of all, for who takes one from a person; a test compares them with the above.
+inline constexpr const char* names[] = {clock.name,
+                                        imu0.name,
+                                        imu1.name,
+                                        imu2.name,
+                                        range_down.name,
+                                        scan.name,
+                                        battery.name,
+                                        phone_pose.name,
+                                        odometry.name,
+                                        tf.name,
+                                        map.name,
+                                        mode.name,
+                                        waypoints.name,
+                                        mode_ack.name,
+                                        vehicle_status.name,
+                                        goal.name,
+                                        path.name,
+                                        trajectory.name,
+                                        setpoint.name,
+                                        motors.name,
+                                        component_status.name,
+                                        parameter_request.name,
+                                        parameter_reply.name,
+                                        sim_truth.name};
+
 }  // namespace swiftlet::topic
 
 namespace swiftlet::frame {

@@ -9,6 +9,8 @@
 #include <algorithm>
 
 #include "components/runtime/names.hpp"
+#include "components/runtime/qos_overrides.hpp"
+#include "components/topics.hpp"
 
 namespace swiftlet {
 
@@ -96,6 +98,10 @@ void NetworkOptions::add_to(CLI::App& verb) {
   verb.add_option("--pace", network_.pace, "Limit for samples above 64 kB [byte/s]")
       ->check(CLI::Range(0, 1'000'000'000))
       ->group(group);
+  verb.add_option("--qos-profiles", qos_file_,
+                  "Fast DDS profiles file (XML); its data_writer and data_reader profiles that are "
+                  "named as ours (sensor, state, command, map, event, bulk) or as a topic override "
+                  "the policies that stand in them");
 }
 
 HostOptions NetworkOptions::host_options(const std::string& name) const {
@@ -105,6 +111,13 @@ HostOptions NetworkOptions::host_options(const std::string& name) const {
     if (!status.ok()) throw ConfigError("--vehicle: " + status.error().reason);
   }
   options.vehicle = vehicle_;
+  if (!qos_file_.empty()) {
+    QosOverrides::Names names;
+    names.topics.assign(std::begin(topic::names), std::end(topic::names));
+    names.vehicle = vehicle_;
+    options.participant.qos_overrides =
+        std::make_shared<const QosOverrides>(QosOverrides::load(qos_file_, names));
+  }
   options.participant.name = fmt::format("{}.{}", name, getpid());
   options.participant.domain = domain_ >= 0 ? domain_ : domain_from_environment();
   wait_for_interfaces(network_);

@@ -38,8 +38,8 @@ class ParameterOptions {
   std::vector<std::string> values_;
 };
 
-/// `--domain`, `--vehicle`, `--network` and the rest of NetworkConfig, for every verb that talks to
-/// others.
+/// `--domain`, `--vehicle`, `--network` and the rest of NetworkConfig, and `--qos-profiles`, for every
+/// verb that talks to others.
 class NetworkOptions {
  public:
   void add_to(CLI::App& verb);
@@ -51,6 +51,7 @@ class NetworkOptions {
   int domain_ = -1;
   std::string vehicle_;
   NetworkConfig network_;
+  std::string qos_file_;
 };
 
 }  // namespace swiftlet

@@ -142,14 +142,15 @@ void Component::listen(std::unique_ptr<SubscriptionTask> subscription, const End
 void Component::SubscriptionTask::listen(Participant& participant, const Executor& executor,
                                          const EndpointSpec& spec) {
   executor_ = &executor;
-  // The reader keeps `depth` samples, so more runs than that would find nothing to take.
-  reader_ = participant.make_reader(spec, [this, depth = spec.qos.depth] {
-    if (pending_.fetch_add(1) < depth) {
+  reader_ = participant.make_reader(spec, [this] {
+    if (pending_.fetch_add(1) < depth_) {
       mailbox_.post(*this);
     } else {
       pending_.fetch_sub(1);
     }
   });
+  // The user's file may have changed it.
+  depth_ = reader_->depth();
 }
 
 void Component::SubscriptionTask::run() {

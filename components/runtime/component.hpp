@@ -171,6 +171,8 @@ class Component {
     Mailbox& mailbox_;
     const Executor* executor_ = nullptr;
     std::atomic<int> pending_{0};  // runs posted and not begun
+    /// The reader keeps that many samples, so more runs than that would find nothing to take.
+    std::atomic<int> depth_{1};
     std::unique_ptr<Reader> reader_;
   };
 

@@ -8,6 +8,8 @@
 
 #include <sstream>
 
+#include "components/runtime/endpoint_qos.hpp"
+
 namespace swiftlet {
 
 namespace dds = eprosima::fastdds::dds;
@@ -23,12 +25,9 @@ Endpoint endpoint_of(const ProxyData& data, bool is_writer) {
   endpoint.topic = data.topicName().to_string();
   endpoint.type = data.typeName().to_string();
   endpoint.is_writer = is_writer;
-  endpoint.qos.name = "discovered";
-  endpoint.qos.reliable = data.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
-  endpoint.qos.transient_local =
-      data.m_qos.m_durability.kind >= dds::TRANSIENT_LOCAL_DURABILITY_QOS;
-  const auto& user_data = data.m_qos.m_userData.data_vec();
-  endpoint.component.assign(user_data.begin(), user_data.end());
+  endpoint.qos = discovered_profile(data.m_qos);
+  endpoint.component = read_announcement(data.m_qos.m_userData.data_vec()).component;
+  endpoint.partitions = data.m_qos.m_partition.getNames();
   return endpoint;
 }
 

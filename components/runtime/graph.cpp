@@ -3,6 +3,7 @@
 #include "components/runtime/graph.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <optional>
 
@@ -10,6 +11,24 @@
 
 namespace swiftlet {
 namespace {
+
+/// DDS 1.4, 2.2.3.13: names may be patterns; no name at all is the partition "".
+bool share_partition(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  static const std::vector<std::string> no_name{""};
+  for (const std::string& x : a.empty() ? no_name : a) {
+    for (const std::string& y : b.empty() ? no_name : b) {
+      if (fnmatch(x.c_str(), y.c_str(), 0) == 0 || fnmatch(y.c_str(), x.c_str(), 0) == 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::string text_of(const std::vector<std::string>& partitions) {
+  return partitions.empty() ? "the default one"
+                            : fmt::format("'{}'", fmt::join(partitions, "', '"));
+}
 
 std::optional<Conflict> conflict_between(const Endpoint& a, const Endpoint& b) {
   if (a.topic != b.topic || a.is_writer == b.is_writer) return std::nullopt;
@@ -20,7 +39,11 @@ std::optional<Conflict> conflict_between(const Endpoint& a, const Endpoint& b) {
                     fmt::format("type: written as {}, read as {}", ros_type_name(writer.type),
                                 ros_type_name(reader.type))};
   }
-  const std::string problem = qos_conflict(writer.qos, reader.qos);
+  std::string problem = qos_conflict(writer.qos, reader.qos);
+  if (problem.empty() && !share_partition(writer.partitions, reader.partitions)) {
+    problem = fmt::format("partition: offered {}, requested {}", text_of(writer.partitions),
+                          text_of(reader.partitions));
+  }
   if (problem.empty()) return std::nullopt;
   return Conflict{writer, reader, problem};
 }

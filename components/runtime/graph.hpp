@@ -19,8 +19,9 @@ struct Endpoint {
   std::string type;   ///< as on the wire: "sensor_msgs::msg::dds_::Imu_"
   bool is_writer = false;
   QosProfile qos{};
-  std::string component;    ///< "" where the other end is not ours and does not say
-  std::string participant;  ///< name of the process, or of its DDS participant
+  std::string component;                  ///< "" where the other end is not ours and does not say
+  std::string participant;                ///< name of the process, or of its DDS participant
+  std::vector<std::string> partitions{};  ///< none: the default one
 };
 
 /// Two ends of one topic that will never exchange a sample.

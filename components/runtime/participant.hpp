@@ -18,6 +18,8 @@
 
 namespace swiftlet {
 
+class QosOverrides;
+
 struct ParticipantOptions {
   std::string name = "swiftlet";  ///< of the process, as others see it
   int domain = 0;                 ///< DDS domain, 0 to 232
@@ -27,6 +29,8 @@ struct ParticipantOptions {
   /// Frames of plain types are shared with other processes of this machine. False: they are copied,
   /// as for processes that do not see the same /dev/shm.
   bool shares_memory = true;
+  /// What the user's file changes of the quality of service; null: nothing.
+  std::shared_ptr<const QosOverrides> qos_overrides;
 };
 
 /// The domain that ROS_DOMAIN_ID asks for, 0 where it is not set. Throws ConfigError where it is
@@ -79,6 +83,8 @@ class Reader {
                              SampleOrigin* origin = nullptr) = 0;
   virtual std::uint64_t overwritten() const = 0;
   virtual int matched_writers() const = 0;
+  /// Samples that wait at most; older ones are lost to the newer.
+  virtual int depth() const = 0;
   /// Samples that DDS reports as lost on the way.
   virtual std::uint64_t lost() const = 0;
 };

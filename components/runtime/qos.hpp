@@ -4,15 +4,36 @@
 
 #include <string>
 
+#include "estimation/basics/time.hpp"
+
 namespace swiftlet {
 
-/// How a topic's samples are delivered. Every topic uses one of the named profiles below.
+inline constexpr Duration kUnlimited = Duration::max();
+
+/// How a writer says that it lives, from the weakest to the strongest promise.
+enum class Liveliness { kAutomatic, kByParticipant, kByTopic };
+
+/// How a topic's samples are delivered. Every topic uses one of the named profiles below; a file
+/// given by the user may change them (QosOverrides).
 struct QosProfile {
   const char* name;
   bool reliable;         ///< lost samples are sent again
   bool transient_local;  ///< who comes later gets the last samples too
-  int depth;             ///< samples kept for a reader that is busy
+  int depth;             ///< samples kept for a reader that is busy; 0: not known
   bool large;            ///< samples above 64 kB: sent by a thread of their own
+
+  // What a writer offers and a reader asks for. By default as ROS 2 does: nothing is asked for, so
+  // that every writer will do.
+  Duration deadline = kUnlimited;  ///< the longest time between two samples
+  Duration latency_budget{0};      ///< a sample may be that late
+  Liveliness liveliness = Liveliness::kAutomatic;
+  Duration lease = kUnlimited;  ///< a writer that said nothing for so long counts as dead
+  bool exclusive = false;       ///< only the strongest writer is heard
+  bool by_source_time = false;  ///< samples in the order of their writing, not of their arrival
+
+  // What only one end has.
+  Duration lifespan = kUnlimited;  ///< a sample that is older is not delivered
+  int strength = 0;                ///< of a writer, where exclusive
 };
 
 namespace qos {
@@ -29,6 +50,9 @@ inline constexpr QosProfile map{"map", true, true, 1, true};
 inline constexpr QosProfile event{"event", true, false, 256, false};
 /// Images and clouds: large, at a rate.
 inline constexpr QosProfile bulk{"bulk", false, false, 4, true};
+
+/// All of them, for who takes a name from a person.
+inline constexpr const QosProfile* profiles[] = {&sensor, &state, &command, &map, &event, &bulk};
 
 }  // namespace qos
 
