@@ -12,6 +12,13 @@ using eprosima::fastrtps::SubscriberAttributes;
 
 namespace {
 
+eprosima::fastrtps::Duration_t third_of(const eprosima::fastrtps::Duration_t& duration) {
+  if (duration == eprosima::fastrtps::c_TimeInfinite) return duration;
+  const std::int64_t ns = duration.to_ns() / 3;
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return {static_cast<std::int32_t>(ns / kSecond), static_cast<std::uint32_t>(ns % kSecond)};
+}
+
 /// What writers and readers have in common. Where the depth changes, so do the limits that follow
 /// from it; limits that stand in the file come later in the alphabet, and win.
 template <class A, class Q>
@@ -45,7 +52,15 @@ Policies<A, Q> common_policies() {
       {"qos/liveliness/kind",
        [](const A& a, Q& q) { q.liveliness().kind = a.qos.m_liveliness.kind; }},
       {"qos/liveliness/lease_duration",
-       [](const A& a, Q& q) { q.liveliness().lease_duration = a.qos.m_liveliness.lease_duration; }},
+       [](const A& a, Q& q) {
+         auto& liveliness = q.liveliness();
+         liveliness.lease_duration = a.qos.m_liveliness.lease_duration;
+         // Fast DDS wants a writer to announce itself within the lease; where the file has no
+         // period that does, it follows from the lease.
+         if (liveliness.announcement_period >= liveliness.lease_duration) {
+           liveliness.announcement_period = third_of(liveliness.lease_duration);
+         }
+       }},
       {"qos/ownership/kind", [](const A& a, Q& q) { q.ownership().kind = a.qos.m_ownership.kind; }},
       {"qos/reliability/kind",
        [](const A& a, Q& q) { q.reliability().kind = a.qos.m_reliability.kind; }},

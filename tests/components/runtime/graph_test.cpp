@@ -52,5 +52,27 @@ TEST_F(GraphTest, DurabilityAndTypeConflictsAreFoundWhicheverEndComesFirst) {
               AllOf(HasSubstr("std_msgs/msg/Header"), HasSubstr("sensor_msgs/msg/Imu")));
 }
 
+TEST_F(GraphTest, PartitionsMustMeetAndMayBePatterns) {
+  const auto problem = [](const std::vector<std::string>& offered,
+                          const std::vector<std::string>& requested) {
+    std::string found;
+    Graph two([&](const Conflict& conflict) { found = conflict.problem; });
+    Endpoint writer = endpoint("1", true, qos::state);
+    writer.partitions = offered;
+    Endpoint reader = endpoint("2", false, qos::state);
+    reader.partitions = requested;
+    two.add(writer);
+    two.add(reader);
+    return found;
+  };
+  EXPECT_EQ(problem({}, {}), "");
+  EXPECT_EQ(problem({"a", "b"}, {"b"}), "");
+  EXPECT_EQ(problem({"uav*"}, {"uav1"}), "");
+  EXPECT_EQ(problem({"uav1"}, {"uav*"}), "");
+  EXPECT_EQ(problem({""}, {}), "");
+  EXPECT_EQ(problem({"a", "b"}, {"c"}), "partition: offered 'a', 'b', requested 'c'");
+  EXPECT_EQ(problem({}, {"c"}), "partition: offered the default one, requested 'c'");
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -113,6 +113,35 @@ TEST(Participant, WhoComesLaterFindsAtOnceWhoIsThere) {
   EXPECT_LE(late, 2) << "of 20; a busy machine may cost one or two";
 }
 
+TEST(Participant, WhatIsDiscoveredIsWhatWasSet) {
+  QosProfile unusual = qos::command;
+  unusual.depth = 17;
+  unusual.deadline = 250ms;
+  unusual.latency_budget = 3ms;
+  unusual.lifespan = 1500ms;
+  unusual.liveliness = Liveliness::kByTopic;
+  unusual.lease = 7s;
+  unusual.exclusive = true;
+  unusual.strength = 5;
+  Participant a(options("a"));
+  Participant b(options("b"));
+  const auto writer = a.make_writer(spec(unusual, "somebody"));
+  ASSERT_TRUE(eventually([&] { return b.graph().endpoints().size() == 1; }));
+  const Endpoint seen = b.graph().endpoints().front();
+  EXPECT_EQ(seen.component, "somebody");
+  EXPECT_EQ(seen.qos.depth, 17);
+  EXPECT_EQ(seen.qos.deadline, 250ms);
+  EXPECT_EQ(seen.qos.latency_budget, 3ms);
+  EXPECT_EQ(seen.qos.lifespan, 1500ms);
+  EXPECT_EQ(seen.qos.liveliness, Liveliness::kByTopic);
+  EXPECT_EQ(seen.qos.lease, 7s);
+  EXPECT_TRUE(seen.qos.exclusive);
+  EXPECT_EQ(seen.qos.strength, 5);
+  // Who asks for what is offered, as a recorder does, gets it.
+  const auto reader = b.make_reader(spec(seen.qos, "recorder"), [] {});
+  EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
+}
+
 TEST(Participant, EndpointsThatGoAreForgotten) {
   Participant a(options("a"));
   auto b = std::make_unique<Participant>(options("b"));
