@@ -24,6 +24,15 @@ class Component::GatedWriter : public Writer {
   void write(const Cdr& cdr) override {
     if (open()) writer_->write(cdr);
   }
+  void* loan() override { return open() ? writer_->loan() : nullptr; }
+  void write_loan(void* sample) override {
+    if (open()) {
+      writer_->write_loan(sample);
+    } else {
+      writer_->discard_loan(sample);
+    }
+  }
+  void discard_loan(void* sample) override { writer_->discard_loan(sample); }
   int matched_readers() const override { return writer_->matched_readers(); }
 
  private:

@@ -59,11 +59,11 @@ class Writer {
   virtual void write(const void* message) = 0;
   virtual void write(const Cdr& cdr) = 0;
   /// Memory for the next sample of a plain type, with unspecified content, where readers on this
-  /// machine will find it; null where the type is not plain, or all memory is lent. Must be given
-  /// back by one of the two below.
-  virtual void* loan() = 0;
-  virtual void write_loan(void* sample) = 0;
-  virtual void discard_loan(void* sample) = 0;
+  /// machine will find it. Null where the type is not plain, or all memory is lent: write a copy
+  /// then. It must be given back by one of the two below.
+  virtual void* loan() { return nullptr; }
+  virtual void write_loan(void* /*sample*/) {}
+  virtual void discard_loan(void* /*sample*/) {}
   /// Readers that get what is written, in whichever process.
   virtual int matched_readers() const = 0;
 };

@@ -210,8 +210,11 @@ TEST_F(QosOverridesTest, AnUnknownProfileIsRefusedWithTheNearestName) {
 
 /// topic::names is a second list beside the constants: this compares the two.
 TEST(TopicNames, AreThoseOfAllTopics) {
-  std::ifstream stream(SWIFTLET_SOURCE_DIR "/components/topics.hpp");
-  const std::string source{std::istreambuf_iterator<char>(stream), {}};
+  std::string source;
+  for (const char* file : {"/components/topics.hpp", "/components/runtime/topic.hpp"}) {
+    std::ifstream stream(std::string(SWIFTLET_SOURCE_DIR) + file);
+    source.append(std::istreambuf_iterator<char>(stream), {});
+  }
   const std::regex constant("inline constexpr Topic<[^>]*> [a-z0-9_]+\\{\"([^\"]+)\"");
   std::set<std::string> declared;
   for (std::sregex_iterator match(source.begin(), source.end(), constant), end; match != end;
