@@ -151,9 +151,13 @@ void Component::listen(std::unique_ptr<SubscriptionTask> subscription, const End
 void Component::SubscriptionTask::listen(Participant& participant, const Executor& executor,
                                          const EndpointSpec& spec) {
   executor_ = &executor;
-  reader_ = participant.make_reader(spec, [this] {
+  reader_ = participant.make_reader(spec, [this, at_once = spec.qos.at_once] {
     if (pending_.fetch_add(1) < depth_) {
-      mailbox_.post(*this);
+      if (at_once) {
+        mailbox_.run_or_post(*this);
+      } else {
+        mailbox_.post(*this);
+      }
     } else {
       pending_.fetch_sub(1);
     }

@@ -202,8 +202,8 @@ class Component {
 
    private:
     InputWatch watch_;
-    /// Kept, so that strings and sequences keep their memory. None for plain types: the callback gets
-    /// the sample where the writer put it.
+    /// Kept, so that strings and sequences keep their memory. None for plain types: the callback
+    /// gets the sample where the writer put it.
     std::unique_ptr<T> message_;
     Callback callback_;
   };

@@ -26,6 +26,9 @@ class Mailbox {
   virtual ~Mailbox() = default;
   /// Notes that `task` shall run once more. From any thread; returns at once.
   virtual void post(Task& task) = 0;
+  /// The same for a task that is short: it may run before this returns, in the calling thread,
+  /// where nothing else of this mailbox runs or waits.
+  virtual void run_or_post(Task& task) { post(task); }
   /// Calls `callback` every `period`, first one period after the run began, with the time at which
   /// it runs. Periods that were missed are not made up for. Only before the run begins.
   virtual void every(Duration period, std::function<void(Time now)> callback) = 0;

@@ -30,6 +30,28 @@ Time time_at(Steady::time_point steady) {
   return start + std::chrono::duration_cast<Duration>(steady - steady_start);
 }
 
+/// The right to run a task in a thread of the middleware. Such a thread holds the lock of a reader
+/// while it delivers; two of them that ran callbacks, each publishing to the other's reader, would
+/// wait for each other for ever. So one thread of the process has this right at a time, and none
+/// twice.
+class AtOnceRight {
+ public:
+  AtOnceRight() : granted_(!taken_.exchange(true, std::memory_order_acquire)) {}
+  ~AtOnceRight() {
+    if (granted_) taken_.store(false, std::memory_order_release);
+  }
+  AtOnceRight(const AtOnceRight&) = delete;
+  AtOnceRight& operator=(const AtOnceRight&) = delete;
+  explicit operator bool() const { return granted_; }
+
+ private:
+  static inline std::atomic<bool> taken_{false};
+  bool granted_;
+};
+
+/// A callback that holds up the middleware for longer than that is named in the log.
+constexpr auto kShort = std::chrono::milliseconds(1);
+
 class LiveExecutor : public Executor {
  public:
   std::unique_ptr<Mailbox> make_mailbox(const std::string& component) override {
@@ -86,6 +108,10 @@ class LiveExecutor : public Executor {
       changed_.notify_one();
     }
 
+    void run_or_post(Task& task) override {
+      if (!run_at_once(task)) post(task);
+    }
+
     void every(Duration period, std::function<void(Time)> callback) override {
       timers_.every(Steady::now() + period, period, std::move(callback));
     }
@@ -102,25 +128,78 @@ class LiveExecutor : public Executor {
     }
 
     void start() {
-      thread_ = std::thread([this] {
-        try {
-          serve();
-        } catch (const std::exception& error) {
-          logger(component_)->critical("stopped by an unexpected error: {}", error.what());
-          executor_.stop(1);
-        }
-      });
+      thread_ = std::thread([this] { guarded([this] { serve(); }); });
     }
 
     void finish() {
       halt();
       if (thread_.joinable()) thread_.join();
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return !runs_at_once_; });
     }
 
    private:
+    template <class Function>
+    void guarded(Function function) {
+      try {
+        function();
+      } catch (const std::exception& error) {
+        logger(component_)->critical("stopped by an unexpected error: {}", error.what());
+        executor_.stop(1);
+      }
+    }
+
+    /// False, without having run it, where something else of this mailbox runs or waits.
+    bool run_at_once(Task& task) {
+      const AtOnceRight right;
+      if (!right) return false;
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!waits_ || finished_ || !tasks_.empty()) return false;
+        runs_at_once_ = true;
+      }
+      const bool had_timers = !timers_.empty();
+      const Steady::time_point first_timer = had_timers ? timers_.next() : Steady::time_point();
+      const Steady::time_point begin = Steady::now();
+      guarded([&task] { task.run(); });
+      if (Steady::now() - begin > kShort) note_long();
+      const std::lock_guard<std::mutex> lock(mutex_);
+      runs_at_once_ = false;
+      // Only where the thread has something to do: to wake it is what this is there to save. Within
+      // the lock, since finish() may be waiting, and then nothing of this is left.
+      const bool has_earlier_timer =
+          !timers_.empty() && (!had_timers || timers_.next() < first_timer);
+      if (held_up_ || finished_ || !tasks_.empty() || has_earlier_timer) changed_.notify_all();
+      held_up_ = false;
+      return true;
+    }
+
+    void note_long() {
+      const std::uint64_t count = ++long_runs_;
+      if ((count & (count - 1)) != 0) return;  // the 1st, the 2nd, the 4th, ... is said
+      logger(component_)
+          ->warn(
+              "callbacks that run at once held up the middleware for more than {} ms, {} so far: "
+              "subscribe without at_once",
+              kShort.count(), count);
+    }
+
+    /// Waits in the way of `wait`, and lets tasks run at once meanwhile.
+    template <class Wait>
+    void wait_idle(Wait wait) {
+      waits_ = true;
+      wait();
+      waits_ = false;
+    }
+
     void serve() {
       std::unique_lock<std::mutex> lock(mutex_);
       while (!finished_) {
+        if (runs_at_once_) {  // and may change the timers
+          held_up_ = true;
+          changed_.wait(lock);
+          continue;
+        }
         const bool timer_is_due = !timers_.empty() && timers_.next() <= Steady::now();
         if (timer_is_due) {
           lock.unlock();
@@ -134,9 +213,10 @@ class LiveExecutor : public Executor {
           task->run();
           lock.lock();
         } else if (!timers_.empty()) {
-          changed_.wait_until(lock, timers_.next());
+          const Steady::time_point next = timers_.next();  // by value: it may change meanwhile
+          wait_idle([&] { changed_.wait_until(lock, next); });
         } else {
-          changed_.wait(lock);
+          wait_idle([&] { changed_.wait(lock); });
         }
       }
     }
@@ -147,6 +227,10 @@ class LiveExecutor : public Executor {
     std::condition_variable changed_;
     std::deque<Task*> tasks_;
     bool finished_ = false;
+    bool waits_ = false;         // the thread has nothing to do
+    bool runs_at_once_ = false;  // a task runs in another thread
+    bool held_up_ = false;       // the thread has something to do, and waits for that one's end
+    std::uint64_t long_runs_ = 0;
     Timers<Steady::time_point> timers_;
     std::thread thread_;
   };

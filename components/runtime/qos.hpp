@@ -34,6 +34,7 @@ struct QosProfile {
   // What only one end has.
   Duration lifespan = kUnlimited;  ///< a sample that is older is not delivered
   int strength = 0;                ///< of a writer, where exclusive
+  bool at_once = false;            ///< of a reader: see at_once() in topic.hpp
 };
 
 namespace qos {

@@ -22,6 +22,18 @@ struct Topic {
   Duration period{0};
 };
 
+/// `subscribe(at_once(topic::imu0), ...)`: the callback may run in the thread of the middleware
+/// that brought the message, without the change of threads, when nothing else of the component runs
+/// or waits. Still no two callbacks of a component run at the same time; a lockstep run knows no
+/// difference. For short callbacks: what comes next over the network waits for them meanwhile. Such
+/// a callback makes no readers and writers, blocks nowhere, and does not read a topic that its
+/// component itself writes. One that takes long is named in the log.
+template <class T>
+constexpr Topic<T> at_once(Topic<T> topic) {
+  topic.qos.at_once = true;
+  return topic;
+}
+
 /// Topics of the runtime itself, which every component has.
 namespace topic {
 

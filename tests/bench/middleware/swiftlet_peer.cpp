@@ -71,11 +71,10 @@ class Receiver : public Component {
  public:
   Receiver(const ComponentContext& context, const PeerOptions& options) : Component(context) {
     if (!is_plain(options)) {
-      subscribe(Topic<Image>{"bench", profile(options)},
-                [on_message = options.on_message](const Image& image) {
-                  const auto& stamp = image.header().stamp();
-                  on_message({stamp.sec() * kSecond + stamp.nanosec(), image.width()});
-                });
+      subscribe(topic<Image>(options), [on_message = options.on_message](const Image& image) {
+        const auto& stamp = image.header().stamp();
+        on_message({stamp.sec() * kSecond + stamp.nanosec(), image.width()});
+      });
     } else if (options.bytes <= 100'000) {
       subscribe_frames<swiftlet_frames::msg::Image640k>(options);
     } else {
@@ -84,13 +83,18 @@ class Receiver : public Component {
   }
 
  private:
+  template <class T>
+  static Topic<T> topic(const PeerOptions& options) {
+    const Topic<T> result{"bench", is_plain(options) ? qos::bulk : profile(options)};
+    return options.variant.find("at-once") == 0 ? at_once(result) : result;
+  }
+
   template <class Frame>
   void subscribe_frames(const PeerOptions& options) {
-    subscribe(Topic<Frame>{"bench", qos::bulk},
-              [on_message = options.on_message](const Frame& frame) {
-                const auto& stamp = frame.info().stamp();
-                on_message({stamp.sec() * kSecond + stamp.nanosec(), frame.info().width()});
-              });
+    subscribe(topic<Frame>(options), [on_message = options.on_message](const Frame& frame) {
+      const auto& stamp = frame.info().stamp();
+      on_message({stamp.sec() * kSecond + stamp.nanosec(), frame.info().width()});
+    });
   }
 };
 
@@ -124,7 +128,7 @@ class SwiftletPeer : public Peer {
 }  // namespace
 
 const std::vector<std::string>& variants() {
-  static const std::vector<std::string> all{"mailbox", "mailbox-plain"};
+  static const std::vector<std::string> all{"mailbox", "at-once", "mailbox-plain", "at-once-plain"};
   return all;
 }
 
