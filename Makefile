@@ -4,7 +4,7 @@
 # Short names for what one does every day. Each target says what it is doing and repeats nothing
 # that is done already.
 
-.PHONY: help packages build program demo test test-full bench asan tsan format tidy clean
+.PHONY: help packages build program demo test test-full bench bench-middleware asan tsan format tidy clean
 
 PROGRAM := build/release/swiftlet
 SCENARIO := components/sim/scenarios/office.yaml
@@ -14,7 +14,7 @@ help:
 	@echo "make demo       install packages, build, and fly the office: out/demo/"
 	@echo "make test       install packages, build, and run the tests"
 	@echo "make test-full  the tests with many seeds and long runs"
-	@echo "make bench      benchmarks"
+	@echo "make bench      benchmarks;  make bench-middleware  beside Cyclone DDS, roscpp, Fast DDS"
 	@echo "make asan tsan  the tests under the address and the thread sanitizer"
 	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
 	@echo "make clean      remove build/ and out/"
@@ -52,6 +52,15 @@ bench: build
 	@echo "== bench: release"
 	@build/release/swiftlet_bench --benchmark_min_time=0.2
 	@tests/bench/sim_speed $(PROGRAM) $(SCENARIO)
+
+bench-middleware: packages
+	@.ci/install-packages packages-bench.txt
+	@mkdir -p build/release
+	@cmake --preset release > build/release/configure.log 2>&1 || { cat build/release/configure.log; exit 1; }
+	@echo "== build: middleware_bench"
+	@cmake --build --preset release --parallel $(JOBS) --target middleware_bench
+	@echo "== bench: middleware (some ten minutes; only a quiet machine gives figures worth keeping)"
+	@tests/bench/middleware/compare build/release
 
 asan tsan: packages
 	@$(MAKE) --no-print-directory build/$@/build.ninja

@@ -97,7 +97,8 @@ class Component {
  protected:
   template <class T>
   Publisher<T> advertise(const Topic<T>& topic) {
-    return Publisher<T>(make_writer(topic.name, message_type<T>(), topic.qos));
+    return Publisher<T>(
+        make_writer(topic.name, message_type<T>(), offered_qos(topic.qos, topic.period)));
   }
 
   /// Publishes also while another instance is the active one.

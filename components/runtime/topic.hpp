@@ -22,6 +22,16 @@ struct Topic {
   Duration period{0};
 };
 
+/// A slow periodic topic offers three of its periods as DDS deadline, so that a ROS 2 reader that
+/// asks for one can match; ours ask for none, they have their own clock for that. Fast topics offer
+/// none: the deadline timer more than doubles the cost of a message.
+constexpr QosProfile offered_qos(const QosProfile& qos, Duration period) {
+  constexpr Duration kSlow = std::chrono::milliseconds(100);
+  QosProfile offered = qos;
+  if (period >= kSlow && qos.deadline == kUnlimited) offered.deadline = 3 * period;
+  return offered;
+}
+
 /// `subscribe(at_once(topic::imu0), ...)`: the callback may run in the thread of the middleware
 /// that brought the message, without the change of threads, when nothing else of the component runs
 /// or waits. Still no two callbacks of a component run at the same time; a lockstep run knows no

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "components/runtime/endpoint_qos.hpp"
+#include "components/runtime/topic.hpp"
 
 namespace swiftlet {
 namespace {
@@ -109,6 +110,21 @@ TEST(EndpointQos, AProfileSurvivesTheWayToDdsAndBack) {
        {qos::sensor, qos::state, qos::command, qos::map, qos::event, qos::bulk, unusual}) {
     expect_equal(profile_of(writer_qos(spec(profile), {}, nullptr), profile), profile);
     expect_equal(profile_of(reader_qos(spec(profile), {}, nullptr), profile), profile);
+  }
+}
+
+TEST(EndpointQos, SlowPeriodicTopicsOfferADeadlineAndNobodyAsksForOne) {
+  const auto offered = [](Duration period, bool isolated) {
+    const QosProfile qos = offered_qos(qos::sensor, period);
+    return profile_of(writer_qos(spec(qos), {isolated, false}, nullptr), qos).deadline;
+  };
+  EXPECT_EQ(offered(100ms, false), 300ms);
+  EXPECT_EQ(offered(4ms, false), kUnlimited);
+  EXPECT_EQ(offered(0ms, false), kUnlimited);
+  EXPECT_EQ(offered(100ms, true), kUnlimited) << "wall time means nothing there";
+  for (const QosProfile* profile : qos::profiles) {
+    EXPECT_EQ(reader_qos(spec(*profile), {}, nullptr).deadline().period,
+              eprosima::fastrtps::c_TimeInfinite);
   }
 }
 
