@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -20,6 +19,7 @@
 
 #include "components/runtime/config.hpp"
 #include "components/runtime/dds_endpoints.hpp"
+#include "components/runtime/dds_log.hpp"
 #include "components/runtime/discovery_listener.hpp"
 #include "components/runtime/endpoint_qos.hpp"
 #include "components/runtime/gated_transport.hpp"
@@ -33,25 +33,6 @@ namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
-
-/// What Fast DDS has to say goes to our log, not to standard output.
-class LogBridge : public dds::LogConsumer {
- public:
-  void Consume(const dds::Log::Entry& entry) override {
-    const bool is_error = entry.kind == dds::Log::Kind::Error;
-    logger("dds")->log(is_error ? spdlog::level::warn : spdlog::level::debug, "{} ({})",
-                       entry.message,
-                       entry.context.category == nullptr ? "" : entry.context.category);
-  }
-};
-
-void bridge_log() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    dds::Log::ClearConsumers();
-    dds::Log::RegisterConsumer(std::make_unique<LogBridge>());
-  });
-}
 
 /// Beyond it the ports of a domain would be above 65535.
 constexpr int kLastDomain = 232;
@@ -101,7 +82,7 @@ class Participant::Impl : public EndpointFactory {
       : options_(options),
         graph_([](const Conflict& conflict) { logger("graph")->error(describe(conflict)); }),
         listener_(graph_) {
-    bridge_log();
+    bridge_dds_log();
     if (!options.isolated) remove_orphaned_segments();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     const auto gate = std::make_shared<std::atomic<bool>>(false);

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "components/runtime/config.hpp"
+#include "components/runtime/dds_log.hpp"
 #include "components/runtime/names.hpp"
 #include "components/runtime/qos.hpp"
 #include "components/runtime/qos_policies.hpp"
@@ -210,6 +211,7 @@ class QosOverridesReader {
 };
 
 QosOverrides QosOverrides::load(const std::string& file, const Names& names) {
+  bridge_dds_log();
   return QosOverridesReader(file, names).read();
 }
 
