@@ -79,7 +79,9 @@ inline constexpr const char* names[] = {clock.name,
                                         component_status.name,
                                         parameter_request.name,
                                         parameter_reply.name,
-                                        sim_truth.name};
+                                        sim_truth.name,
+                                        commander_state.name,
+                                        diagnostics.name};
 
 }  // namespace swiftlet::topic
 
