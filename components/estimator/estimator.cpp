@@ -55,7 +55,9 @@ class Estimator : public Component {
     if (!ukf_.initialized()) return;
     const Status status = ukf_.predict(from_msg(imu.header().stamp()), from_msg(imu));
     if (!status.ok()) {
-      log()->warn("IMU sample refused: {}", status.error().reason);
+      if (is_worth_a_line(++refused_samples_)) {
+        log()->warn("IMU sample refused: {} ({} so far)", status.error().reason, refused_samples_);
+      }
       return;
     }
     if (++samples_ % params_.odometry_every == 0) publish();
@@ -66,11 +68,20 @@ class Estimator : public Component {
     const PoseMeasurement measurement = measurement_of(pose);
     if (!ukf_.initialized()) {
       const Status status = ukf_.initialize(time, measurement);
-      if (!status.ok()) log()->warn("cannot start from this pose: {}", status.error().reason);
+      if (!status.ok()) warn_of_pose(status.error().reason);
       return;
     }
     const UpdateReport report = ukf_.update(time, measurement);
-    if (!report.reason.empty()) log()->warn("phone pose: {}", report.reason);
+    if (report.outcome == UpdateReport::Outcome::kReinitialized) {
+      log()->warn("phone pose: {}", report.reason);
+    } else if (!report.reason.empty()) {
+      warn_of_pose(report.reason);
+    }
+  }
+
+  void warn_of_pose(const std::string& reason) {
+    if (is_worth_a_line(++odd_poses_))
+      log()->warn("phone pose: {} ({} so far)", reason, odd_poses_);
   }
 
   void publish() {
@@ -99,6 +110,8 @@ class Estimator : public Component {
   Params params_;
   PoseImuUkf ukf_;
   std::int64_t samples_ = 0;
+  std::uint64_t refused_samples_ = 0;
+  std::uint64_t odd_poses_ = 0;  // refused, or reason for a restart
   std::int64_t published_ = 0;
   Publisher<nav_msgs::msg::Odometry> odometry_;
   Publisher<tf2_msgs::msg::TFMessage> tf_;

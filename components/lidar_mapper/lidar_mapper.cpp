@@ -82,7 +82,9 @@ class LidarMapper : public Component {
     subscribe(topic::scan, [this](const sensor_msgs::msg::LaserScan& scan) {
       waiting_.push_back(scan);
       if (waiting_.size() > kMaxWaiting) {
-        log()->warn("a scan was dropped: no odometry at its time");
+        if (is_worth_a_line(++dropped_)) {
+          log()->warn("a scan was dropped: no odometry at its time ({} so far)", dropped_);
+        }
         waiting_.pop_front();
       }
       insert_waiting();
@@ -114,7 +116,9 @@ class LidarMapper : public Component {
     const auto inserted =
         grid_.insert(from_msg(message), pose->position + pose->attitude * p_BL, pose->attitude);
     if (!inserted.ok()) {
-      log()->warn("scan refused: {}", inserted.error().reason);
+      if (is_worth_a_line(++refused_)) {
+        log()->warn("scan refused: {} ({} so far)", inserted.error().reason, refused_);
+      }
       return;
     }
     const bool all_outside = inserted->returns == 0 && inserted->clearing == 0;
@@ -133,6 +137,8 @@ class LidarMapper : public Component {
   PoseHistory poses_;
   std::string odometry_frame_;
   std::deque<sensor_msgs::msg::LaserScan> waiting_;
+  std::uint64_t dropped_ = 0;  // scans without a pose
+  std::uint64_t refused_ = 0;  // scans that the grid cannot take
   bool changed_ = false;
   bool adopted_ = false;  // another instance's map
   int outside_ = 0;       // scans without a beam inside the height band, before the first with one

@@ -26,11 +26,6 @@ EndpointGuid binary(const rtps::GUID_t& guid) {
   return bytes;
 }
 
-/// For messages that must not flood the log.
-bool is_power_of_two(std::uint64_t count) {
-  return (count & (count - 1)) == 0;
-}
-
 class DdsWriter : public Writer {
  public:
   DdsWriter(std::shared_ptr<EndpointFactory> factory, const EndpointSpec& spec)
@@ -72,9 +67,8 @@ class DdsWriter : public Writer {
   }
 
  private:
-  /// What was not sent is said, the 1st, the 2nd, the 4th, ... time.
   void note(bool sent) {
-    if (sent || !is_power_of_two(++unsent_)) return;
+    if (sent || !is_worth_a_line(++unsent_)) return;
     logger(component_)
         ->error(
             "a sample of '{}' was not sent ({} so far): a reliable reader does not keep up, or the "
@@ -163,7 +157,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
 
   void note_overwritten() {
     const std::uint64_t count = ++overwritten_;
-    if (!is_power_of_two(count)) return;
+    if (!is_worth_a_line(count)) return;
     logger(component_)
         ->error(
             "a frame of '{}' was overwritten while it was being read ({} so far): the callback "

@@ -176,7 +176,7 @@ class LiveExecutor : public Executor {
 
     void note_long() {
       const std::uint64_t count = ++long_runs_;
-      if ((count & (count - 1)) != 0) return;  // the 1st, the 2nd, the 4th, ... is said
+      if (!is_worth_a_line(count)) return;
       logger(component_)
           ->warn(
               "callbacks that run at once held up the middleware for more than {} ms, {} so far: "

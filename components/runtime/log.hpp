@@ -4,6 +4,7 @@
 
 #include <spdlog/logger.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -17,5 +18,11 @@ Logger logger(const std::string& name);
 
 /// One of trace, debug, info, warning, error, off. False where it is none of them.
 bool set_log_level(const std::string& level);
+
+/// Whether the `count`th time of something is worth a line: the 1st, the 2nd, the 4th, ... are, so
+/// that what happens a thousand times a second does not flood the log.
+constexpr bool is_worth_a_line(std::uint64_t count) {
+  return (count & (count - 1)) == 0;
+}
 
 }  // namespace swiftlet
