@@ -12,6 +12,8 @@
 #include <set>
 #include <sstream>
 
+#include "components/runtime/yaml_text.hpp"
+
 namespace swiftlet {
 
 /// What the mappings of one file share: its name, its content, and the keys that were asked for.
@@ -65,36 +67,6 @@ std::string to_yaml(const std::vector<Item>& values) {
   return "[" + text + "]";
 }
 
-constexpr int kMaxDepth = 32;
-
-/// From 1; an empty file has no marks.
-int line_of(const YAML::Node& node) {
-  return node.IsDefined() ? std::max(1, node.Mark().line + 1) : 1;
-}
-
-/// yaml-cpp keeps both of two equal keys and finds one; YAML 1.2 forbids them.
-/// An alias within its own anchor would go on for ever.
-void refuse_double_keys(const YAML::Node& node, const std::string& file, int depth = 0) {
-  if (depth > kMaxDepth) {
-    throw ConfigError(
-        fmt::format("{}:{}: nested more than {} levels deep; is there an alias in its "
-                    "own anchor?",
-                    file, line_of(node), kMaxDepth));
-  }
-  if (node.IsMap()) {
-    std::set<std::string> keys;
-    for (const auto& entry : node) {
-      if (entry.first.IsScalar() && !keys.insert(entry.first.Scalar()).second) {
-        throw ConfigError(fmt::format("{}:{}: '{}' is given twice; keep one", file,
-                                      line_of(entry.first), entry.first.Scalar()));
-      }
-      refuse_double_keys(entry.second, file, depth + 1);
-    }
-  } else if (node.IsSequence()) {
-    for (const YAML::Node& item : node) refuse_double_keys(item, file, depth + 1);
-  }
-}
-
 std::string join_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
@@ -126,12 +98,10 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
   auto file = std::make_shared<File>();
   file->name = name;
   try {
-    file->top = YAML::Load(yaml);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(
-        fmt::format("{}:{}: not valid YAML: {}", name, error.mark.line + 1, error.msg));
+    file->top = parse_yaml(yaml);
+  } catch (const YamlProblem& problem) {
+    throw ConfigError(fmt::format("{}:{}: {}", name, problem.line(), problem.what()));
   }
-  refuse_double_keys(file->top, name);
   if (file->top.IsNull()) file->top = YAML::Node(YAML::NodeType::Map);
   if (!file->top.IsMap()) {
     throw ConfigError(
@@ -142,9 +112,9 @@ Config Config::parse(const std::string& yaml, const std::string& name) {
 
 void Config::set(const std::string& path, const std::string& value) {
   try {
-    file_->set_by_hand[join_path(path_, path)] = YAML::Load(value);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(fmt::format("{}={}: not valid YAML: {}", path, value, error.msg));
+    file_->set_by_hand[join_path(path_, path)] = parse_yaml(value);
+  } catch (const YamlProblem& problem) {
+    throw ConfigError(fmt::format("{}={}: {}", path, value, problem.what()));
   }
 }
 

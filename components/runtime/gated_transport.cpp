@@ -4,8 +4,12 @@
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 
 #include <utility>
+
+#include "components/runtime/log.hpp"
+#include "components/runtime/rtps_guard.hpp"
 
 namespace swiftlet {
 
@@ -42,11 +46,22 @@ class GatedTransport : public transport::ChainingTransport {
   void receive(transport::TransportReceiverInterface* next, const rtps::octet* buffer,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
+    if (const char* problem = guard_.problem(buffer, size)) return drop(problem, remote);
     next->OnDataReceived(buffer, size, local, remote);
   }
 
  private:
+  /// Called by several threads, one a port.
+  void drop(const char* problem, const rtps::Locator_t& remote) {
+    const std::uint64_t count = ++dropped_;
+    if (!is_worth_a_line(count)) return;
+    logger("network")->warn("a datagram from {} is dropped, the {}. so far: {}",
+                            rtps::IPLocator::toIPv4string(remote), count, problem);
+  }
+
   GatedDescriptor descriptor_;
+  RtpsGuard guard_;
+  std::atomic<std::uint64_t> dropped_{0};
 };
 
 transport::TransportInterface* GatedDescriptor::create_transport() const {

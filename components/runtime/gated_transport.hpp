@@ -19,6 +19,8 @@ using Gate = std::shared_ptr<std::atomic<bool>>;
 /// machine do, are not heard, and do not answer again: they are found with their own next
 /// announcement, a second and more later. Behind a gate that opens once the participant listens,
 /// the first announcement that goes out is one that will be answered.
+///
+/// What it receives it hands on if it is sound (RtpsGuard); the rest is counted and logged.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> gated(
     std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> transport, Gate gate);
 

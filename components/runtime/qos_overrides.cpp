@@ -57,6 +57,9 @@ class QosOverridesReader {
                                     std::max(1, document.ErrorLineNum()), reason));
     }
     const tinyxml2::XMLElement* root = document.RootElement();
+    if (root == nullptr) {
+      throw ConfigError(fmt::format("{}:1: there is no element; wanted is <dds>", file_));
+    }
     const std::string name = root->Name();
     if (name == "profiles") {
       read_profiles(*root);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/runtime/config.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -127,6 +128,22 @@ TEST(Config, FilesThatAreMissingOrMalformedAreNamed) {
               AllOf(HasSubstr("f.yaml:2"), HasSubstr("'b' is given twice")));
   EXPECT_THAT(error_of([] { Config::parse("a: &x [*x]\n", "f.yaml"); }),
               AllOf(HasSubstr("f.yaml:1"), HasSubstr("nested")));
+}
+
+TEST(Config, AFileThatGrowsByItsAliasesIsRefusedAtOnce) {
+  // Nine to the power of nine values, in nine lines.
+  std::string yaml = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (char name = 'b'; name <= 'i'; ++name) {
+    const std::string one = std::string("*") + static_cast<char>(name - 1) + ", ";
+    yaml += fmt::format("{0}: &{0} [{1}{1}{1}{1}{1}{1}{1}{1}{1}]\n", name, one);
+  }
+  EXPECT_THAT(error_of([&] { Config::parse(yaml, "f.yaml"); }),
+              AllOf(HasSubstr("f.yaml:"), HasSubstr("aliases included")));
+  EXPECT_THAT(error_of([&] { Config().set("key", "{a: 1, a: 2}"); }), HasSubstr("given twice"));
+  EXPECT_THAT(error_of([] { Config::parse(std::string(2 << 20, ' '), "f.yaml"); }),
+              HasSubstr("f.yaml:1: has 2097152 bytes"));
+  EXPECT_THAT(error_of([] { Config::parse("a: " + std::string(100'000, '['), "f.yaml"); }),
+              HasSubstr("f.yaml:1"));
 }
 
 TEST(Config, ValuesSetByHandWinOverTheFile) {
