@@ -13,7 +13,7 @@
 namespace swiftlet {
 
 Echo::Echo(const ComponentContext& context, const EchoParams& params)
-    : TopicReader(context, params.topic), params_(params) {}
+    : TopicObserver(context, params.topic), params_(params) {}
 
 bool Echo::open(const TopicView& topic, const std::string& type) {
   type_ = params_.types->find(type);

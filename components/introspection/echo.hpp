@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "components/introspection/topic_reader.hpp"
+#include "components/introspection/topic_observer.hpp"
 #include "components/runtime/reflection/field_path.hpp"
 
 namespace swiftlet {
@@ -21,7 +21,7 @@ struct EchoParams {
 };
 
 /// Prints the messages of a topic.
-class Echo : public TopicReader {
+class Echo : public TopicObserver {
  public:
   Echo(const ComponentContext& context, const EchoParams& params);
 

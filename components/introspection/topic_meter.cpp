@@ -19,7 +19,7 @@ constexpr Duration kPeriod = 1s;
 }  // namespace
 
 TopicMeter::TopicMeter(const ComponentContext& context, const MeterParams& params)
-    : TopicReader(context, params.topic),
+    : TopicObserver(context, params.topic),
       params_(params),
       window_(static_cast<std::size_t>(params.window)) {
   every(kTick, [this](Time now) { print(now); });

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "components/introspection/sliding_window.hpp"
-#include "components/introspection/topic_reader.hpp"
+#include "components/introspection/topic_observer.hpp"
 
 namespace swiftlet {
 
@@ -19,7 +19,7 @@ struct MeterParams {
 
 /// Measures a topic and prints a report: the first half a second after the first sample, then one
 /// a second.
-class TopicMeter : public TopicReader {
+class TopicMeter : public TopicObserver {
  public:
   TopicMeter(const ComponentContext& context, const MeterParams& params);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/introspection/topic_reader.hpp"
+#include "components/introspection/topic_observer.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +19,10 @@ constexpr Duration kSilence = 2s;
 
 }  // namespace
 
-TopicReader::TopicReader(const ComponentContext& context, std::string topic)
+TopicObserver::TopicObserver(const ComponentContext& context, std::string topic)
     : Observer(context), topic_(std::move(topic)) {}
 
-void TopicReader::begin(const GraphView& view) {
+void TopicObserver::begin(const GraphView& view) {
   const Result<TopicView> found = find_topic(view, vehicle(), topic_);
   if (!found.ok()) {
     const std::string plain = topic_.substr(topic_[0] == '/' ? 1 : 0);
@@ -55,7 +55,7 @@ void TopicReader::begin(const GraphView& view) {
   call_at(now() + kSilence, [this](Time) { warn_if_silent(); });
 }
 
-void TopicReader::warn_if_silent() {
+void TopicObserver::warn_if_silent() {
   if (heard_) return;
   log()->warn("nothing has come on '{}' yet; it is offered by {}", found_.name,
               who(found_.writers));

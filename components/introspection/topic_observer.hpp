@@ -10,9 +10,9 @@ namespace swiftlet {
 
 /// Reads one topic that others write, whatever its type. It asks for the weakest quality of service
 /// that the writers offer, so that it hears them all. A topic that nobody writes ends the run.
-class TopicReader : public Observer {
+class TopicObserver : public Observer {
  public:
-  TopicReader(const ComponentContext& context, std::string topic);
+  TopicObserver(const ComponentContext& context, std::string topic);
 
  protected:
   /// Before the first sample; `type` as on the wire. False where the topic is of no use.
