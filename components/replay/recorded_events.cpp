@@ -30,7 +30,7 @@ std::optional<RecordedEvents::Event> RecordedEvents::read() {
   for (;;) {
     const auto next = cursor_.next();
     if (!next.ok()) {
-      ++damaged_chunks_;
+      damage_.push_back(next.error());
       continue;
     }
     if (!*next) return std::nullopt;

@@ -49,8 +49,8 @@ class RecordedEvents {
   /// Outputs that were recorded and not taken, by topic.
   std::map<std::string, std::size_t> not_taken() const;
 
-  /// Chunks that could not be read.
-  std::uint64_t damaged_chunks() const { return damaged_chunks_; }
+  /// Of chunks that could not be read so far: where, and what is wrong with them.
+  const std::vector<Error>& damage() const { return damage_; }
   std::uint64_t inputs() const { return inputs_; }
 
  private:
@@ -68,7 +68,7 @@ class RecordedEvents {
   std::vector<RecordedMessage> batch_;
   std::map<std::string, int> before_batch_;
   std::map<std::string, std::deque<RecordedMessage>> expected_;
-  std::uint64_t damaged_chunks_ = 0;
+  std::vector<Error> damage_;
   std::uint64_t inputs_ = 0;
 };
 

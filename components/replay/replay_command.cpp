@@ -200,11 +200,13 @@ int replay(const ReplayOptions& options) {
     throw ConfigError(fmt::format("{}: holds no messages that could be played", recording.name()));
   }
   if (const int exit_code = host.run(); exit_code != 0) return exit_code;
-  if (state->events.damaged_chunks() > 0) {
-    fmt::print(stderr,
-               "swiftlet: {}: {} chunks are damaged and were left out, so the outcome would be "
-               "wrong; `swiftlet bag verify` says more\n",
-               recording.name(), state->events.damaged_chunks());
+  if (const auto& damage = state->events.damage(); !damage.empty()) {
+    for (const Error& error : damage) fmt::print(stderr, "{}\n", printable(error.reason));
+    fmt::print(
+        stderr,
+        "swiftlet: {}: what is damaged was left out, so the outcome would be wrong; `swiftlet "
+        "bag verify --repair` makes a sound file of the rest\n",
+        recording.name());
     return 1;
   }
   const ReplayResult result = comparison.result();

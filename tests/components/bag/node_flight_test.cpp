@@ -139,7 +139,7 @@ TEST_F(NodeFlight, EveryMessageDecodesToTheValuesThatWeRead) {
   EXPECT_EQ(theirs["messages_from_the_front"], reader.statistics().message_count);
   std::map<std::string, std::uint64_t> counts;
   for (const auto& [id, count] : reader.statistics().channel_message_counts) {
-    counts[reader.channels().at(id).topic] = count;
+    counts[reader.channels().at(id).topic] += count;
   }
   EXPECT_EQ(theirs["decoded"].get<decltype(counts)>(), counts);
   EXPECT_GE(counts.size(), 18U);
