@@ -14,6 +14,9 @@ constexpr double kSilentPeriods = 3.0;
 constexpr double kSilentPeriodsWithStandby = 7.0;
 /// Silences that a busy machine has are nobody's death [s].
 constexpr double kShortestSilence = 0.1;
+/// For so long a component may be blocked: what it misses is back when a successor has taken over,
+/// and where there is none, whoever fell silent is the better reason [s].
+constexpr double kBlocked = 0.5;
 /// Status comes five times a second [s].
 constexpr double kSilentStatus = 1.0;
 /// Who was not heard for so long has left [s].
@@ -34,7 +37,9 @@ void Attendance::heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Ti
 }
 
 void Attendance::heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now) {
-  components_[status.component_name()][status.instance()] = {status, now};
+  Instance& instance = components_[status.component_name()][status.instance()];
+  const Time since = instance.blocked_since.value_or(now);
+  instance = {status, now, status.blocked() ? std::optional(since) : std::nullopt};
 }
 
 const Attendance::Instance* Attendance::leader(const Instances& instances) {
@@ -76,7 +81,9 @@ std::string Attendance::failure(const std::string& component, Time now) const {
   if (silent(active->status, age, has_standby ? kSilentPeriodsWithStandby : kSilentPeriods)) {
     return fmt::format("the {} fell silent {:.2f} s ago", component, age);
   }
-  if (active->status.blocked() && !active->status.problems().empty()) {
+  const bool is_blocked =
+      active->blocked_since && to_seconds(now - *active->blocked_since) > kBlocked;
+  if (is_blocked && !active->status.problems().empty()) {
     return fmt::format("the {} cannot work: {}", component, active->status.problems().front());
   }
   return "";

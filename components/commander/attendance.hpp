@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "estimation/basics/time.hpp"
@@ -21,14 +22,16 @@ class Attendance {
   /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
   /// writes it". "" where all is well. Who went away long ago is forgotten.
   std::string problem(Time now) const;
-  /// The same of one component that is relied on in flight, if it was ever there: that it is silent
-  /// or blocked. Where an instance stands by, it has the time to take over.
+  /// The same of one component that is relied on in flight, if it was ever there: that it is
+  /// silent, or blocked for a while. An instance that stands by has the time to take over, also one
+  /// of whoever should write what blocks it.
   std::string failure(const std::string& component, Time now) const;
 
  private:
   struct Instance {
     swiftlet_msgs::msg::ComponentStatus status;  // with the problems that were reported last
     Time heard{};
+    std::optional<Time> blocked_since;
   };
   using Instances = std::map<std::string, Instance>;
   /// The active one; of several the one that took over last.

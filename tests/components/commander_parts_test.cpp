@@ -65,11 +65,25 @@ TEST(Attendance, ProblemsThatOthersReportKeepFromArming) {
   EXPECT_EQ(attendance.problem(Time(10100ms)), "estimator: imu0: 300 Hz, 1000 Hz are usual")
       << "a sign of life says nothing of problems";
   EXPECT_EQ(attendance.failure("estimator", Time(10100ms)), "") << "slow, but it works";
-  attendance.heard_status(status("estimator", "a", true, 1, "imu0: silent for 1.00 s", true),
-                          Time(10200ms));
-  EXPECT_THAT(attendance.failure("estimator", Time(10200ms)), HasSubstr("imu0: silent"));
   attendance.heard_status(status("estimator", "a", true, 1), Time(10300ms));
   EXPECT_EQ(attendance.problem(Time(10300ms)), "");
+}
+
+TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {
+  Attendance attendance;
+  const auto heard = [&](Time now, bool blocked) {
+    const char* problem = blocked ? "odometry: silent for 0.20 s" : "";
+    attendance.heard_status(status("planner", "a", true, 1, problem, blocked), now);
+  };
+  heard(Time(10s), true);
+  heard(Time(10200ms), false);
+  heard(Time(10400ms), true);
+  heard(Time(10700ms), true);
+  EXPECT_EQ(attendance.failure("planner", Time(10900ms)), "")
+      << "whoever should write the odometry may have a successor";
+  heard(Time(10910ms), true);
+  EXPECT_EQ(attendance.failure("planner", Time(10910ms)),
+            "the planner cannot work: odometry: silent for 0.20 s");
 }
 
 TEST(Attendance, WhoLeftLongAgoIsForgotten) {

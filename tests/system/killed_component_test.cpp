@@ -104,7 +104,7 @@ TEST_P(WithoutStandby, NothingIsTouchedAndTheReasonIsSaid) {
   const bool long_form = !(seed == 1 && moment->name == std::string("Cruise"));
   if (long_form && !full_tests()) GTEST_SKIP() << "set SWIFTLET_FULL_TESTS=1 to run it";
   start_all(seed, false);
-  ASSERT_TRUE(reaches(*moment, Seconds(90.0)));
+  ASSERT_TRUE(reaches(*moment, Seconds(90.0))) << pilot_->err();
   kill(component);
   const auto end = pilot_->wait(Seconds(60.0));
   ASSERT_TRUE(end);
@@ -145,7 +145,7 @@ TEST_P(WithStandby, TheMissionIsFlownAlthoughEachIsKilledInTurn) {
   // One after the other in flight, in another order each time.
   std::vector<std::string> order = kComponents;
   std::rotate(order.begin(), order.begin() + round % static_cast<int>(order.size()), order.end());
-  ASSERT_TRUE(reaches(kMoments[round % 3], Seconds(90.0)));
+  ASSERT_TRUE(reaches(kMoments[round % 3], Seconds(90.0))) << pilot_->err();
   observer_->forget_gaps();
   for (const std::string& component : order) {
     kill(component);
