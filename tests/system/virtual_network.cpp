@@ -203,6 +203,12 @@ void SpreadVehicleTest::fly(const std::vector<std::array<double, 2>>& places, do
   ASSERT_NO_FATAL_FAILURE(land());
 }
 
+std::string SpreadVehicleTest::diagnosis() {
+  Arguments all{"doctor"};
+  all.insert(all.end(), network_.begin(), network_.end());
+  return "\n== doctor\n" + run_on(station_, all).out;
+}
+
 std::string SpreadVehicleTest::logs() const {
   std::string text;
   for (const auto& [host, process] : launched_) {

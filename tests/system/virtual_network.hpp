@@ -80,9 +80,11 @@ class SpreadVehicleTest : public NetworkTest {
                                last = now;
                                return condition(now);
                              }))
-        << "never " << what << ": " << last.dump(2) << logs();
+        << "never " << what << ": " << last.dump(2) << diagnosis() << logs();
   }
   std::string logs() const;
+  /// What the doctor says, as the station sees it.
+  std::string diagnosis();
 
   std::string station_ = "ground";
   Arguments network_;  // of gcs on the station
