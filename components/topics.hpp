@@ -32,11 +32,17 @@ inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> phone_pose
 // Where the vehicle is, and what is around it.
 inline constexpr Topic<nav_msgs::msg::Odometry> odometry{"odometry", qos::state, 10ms};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> tf{"tf", qos::state};
+/// Where sensors sit. Each driver says it of its own, so a reader keeps more than one message.
+inline constexpr Topic<tf2_msgs::msg::TFMessage> tf_static{"tf_static",
+                                                           qos::keeping(qos::map, 100)};
 inline constexpr Topic<nav_msgs::msg::OccupancyGrid> map{"map", qos::map, 200ms};
 
 // Where it goes.
 inline constexpr Topic<swiftlet_msgs::msg::ModeCommand> mode{"mode", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::Mission> waypoints{"waypoints", qos::command};
+/// A mission of one waypoint, from RViz's "2D Goal Pose" and its like. It is said once, so it must
+/// not get lost: reliable, as those tools offer by default.
+inline constexpr Topic<geometry_msgs::msg::PoseStamped> goal_pose{"goal_pose", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::CommandAck> mode_ack{"mode/ack", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::VehicleStatus> vehicle_status{"vehicle/status",
                                                                          qos::state, 100ms};
@@ -66,9 +72,11 @@ inline constexpr const char* names[] = {clock.name,
                                         phone_pose.name,
                                         odometry.name,
                                         tf.name,
+                                        tf_static.name,
                                         map.name,
                                         mode.name,
                                         waypoints.name,
+                                        goal_pose.name,
                                         mode_ack.name,
                                         vehicle_status.name,
                                         goal.name,
@@ -89,6 +97,9 @@ namespace swiftlet::frame {
 
 inline constexpr const char* kMap = "map";         ///< world W, ENU
 inline constexpr const char* kBody = "base_link";  ///< body B, FLU
+// Of sensors, whose places on the body are on tf_static.
 inline constexpr const char* kLaser = "laser";
+inline constexpr const char* kImu[] = {"imu0", "imu1", "imu2"};
+inline constexpr const char* kRangeDown = "range_down";  ///< its x axis is that of the beam
 
 }  // namespace swiftlet::frame

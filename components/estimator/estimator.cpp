@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 #include "components/conversions.hpp"
+#include "components/static_transforms.hpp"
 #include "components/topics.hpp"
 #include "estimation/ukf/pose_imu_ukf.hpp"
 
@@ -97,13 +98,9 @@ class Estimator : public Component {
   }
 
   void publish_tf(const nav_msgs::msg::Odometry& odometry) {
-    geometry_msgs::msg::TransformStamped transform;
-    transform.header(odometry.header());
-    transform.child_frame_id(frame::kBody);
-    transform.transform().translation(to_vector3(ukf_.state().p_WB));
-    transform.transform().rotation(odometry.pose().pose().orientation());
     tf2_msgs::msg::TFMessage message;
-    message.transforms({transform});
+    message.transforms({to_transform(ukf_.time(), frame::kMap, odometry.child_frame_id(),
+                                     {ukf_.state().p_WB, ukf_.state().q_WB})});
     tf_.publish(message);
   }
 

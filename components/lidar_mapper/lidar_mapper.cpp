@@ -4,6 +4,7 @@
 
 #include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
+#include "components/static_transforms.hpp"
 #include "components/topics.hpp"
 #include "estimation/geometry/pose_history.hpp"
 #include "perception/occupancy_grid.hpp"
@@ -21,7 +22,6 @@ constexpr Duration kAlivePeriod = 50ms;  // large maps take their time
 
 struct Params {
   OccupancyGrid::Params grid;
-  Eigen::Vector3d laser_position{0.0, 0.0, 0.08};  ///< of the scanner in the body [m]
   double map_rate_hz = 5.0;
   double max_odometry_gap = 0.5;  ///< longer ones are not interpolated across [s]
 };
@@ -37,7 +37,6 @@ Params read_params(const Config& config) {
   config.read("min_height", params.grid.min_height);
   config.read("max_height", params.grid.max_height);
   config.read("max_range", params.grid.max_range, kPositive);
-  config.read("laser_position", params.laser_position);
   config.read("map_rate_hz", params.map_rate_hz, {0.1, 50.0});
   config.read("max_odometry_gap", params.max_odometry_gap, kPositive);
   return params;
@@ -54,8 +53,8 @@ LaserScan from_msg(const sensor_msgs::msg::LaserScan& message) {
   return scan;
 }
 
-/// An occupancy map from scans at the poses of odometry. One that is started beside another begins
-/// with the map that is there.
+/// An occupancy map from scans at the poses of odometry, with the scanner where tf_static says that
+/// it sits. One that is started beside another begins with the map that is there.
 class LidarMapper : public Component {
  public:
   explicit LidarMapper(const ComponentContext& context)
@@ -79,14 +78,16 @@ class LidarMapper : public Component {
       odometry_frame_ = odometry.child_frame_id();
       insert_waiting();
     });
+    subscribe(topic::tf_static, [this](const tf2_msgs::msg::TFMessage& message) {
+      for (const auto& transform : message.transforms()) {
+        const Status added = mounts_.add(transform);
+        if (!added.ok()) log()->warn("tf_static: {}", added.error().reason);
+      }
+      insert_waiting();
+    });
     subscribe(topic::scan, [this](const sensor_msgs::msg::LaserScan& scan) {
       waiting_.push_back(scan);
-      if (waiting_.size() > kMaxWaiting) {
-        if (is_worth_a_line(++dropped_)) {
-          log()->warn("a scan was dropped: no odometry at its time ({} so far)", dropped_);
-        }
-        waiting_.pop_front();
-      }
+      if (waiting_.size() > kMaxWaiting) drop_oldest();
       insert_waiting();
     });
     every(from_seconds(1.0 / params_.map_rate_hz), [this](Time now) {
@@ -100,21 +101,33 @@ class LidarMapper : public Component {
   void insert_waiting() {
     while (!waiting_.empty() && !poses_.empty() &&
            swiftlet::from_msg(waiting_.front().header().stamp()) <= poses_.newest()) {
-      insert(waiting_.front());
+      // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
+      const auto mount = mounts_.find(odometry_frame_, waiting_.front().header().frame_id());
+      if (!mount) return;
+      insert(waiting_.front(), *mount);
       waiting_.pop_front();
     }
   }
 
-  void insert(const sensor_msgs::msg::LaserScan& message) {
+  void drop_oldest() {
+    const std::string frame = waiting_.front().header().frame_id();
+    waiting_.pop_front();
+    if (!is_worth_a_line(++dropped_)) return;
+    if (poses_.empty() || mounts_.find(odometry_frame_, frame)) {
+      log()->warn("a scan was dropped: no odometry at its time ({} so far)", dropped_);
+    } else {
+      log()->warn(
+          "a scan was dropped: nobody says on tf_static where '{}' sits on '{}' ({} so far)", frame,
+          odometry_frame_, dropped_);
+    }
+  }
+
+  void insert(const sensor_msgs::msg::LaserScan& message, const StaticTransforms::Pose& mount) {
     const auto pose = poses_.at(swiftlet::from_msg(message.header().stamp()),
                                 from_seconds(params_.max_odometry_gap));
     if (!pose) return;  // taken before the first odometry, or in a gap of it
-    // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
-    const bool is_scanners_own = odometry_frame_ == message.header().frame_id();
-    const Eigen::Vector3d p_BL =
-        is_scanners_own ? Eigen::Vector3d::Zero().eval() : params_.laser_position;
-    const auto inserted =
-        grid_.insert(from_msg(message), pose->position + pose->attitude * p_BL, pose->attitude);
+    const Eigen::Vector3d p_WL = pose->position + pose->attitude * mount.position;
+    const auto inserted = grid_.insert(from_msg(message), p_WL, pose->attitude * mount.attitude);
     if (!inserted.ok()) {
       if (is_worth_a_line(++refused_)) {
         log()->warn("scan refused: {} ({} so far)", inserted.error().reason, refused_);
@@ -126,8 +139,7 @@ class LidarMapper : public Component {
       log()->warn(
           "{} scans at {:.2f} m are wholly outside of the heights that are mapped ({:.2f} to "
           "{:.2f} m); see the parameters min_height and max_height",
-          outside_, pose->position.z() + p_BL.z(), params_.grid.min_height,
-          params_.grid.max_height);
+          outside_, p_WL.z(), params_.grid.min_height, params_.grid.max_height);
     }
     changed_ = true;
   }
@@ -136,8 +148,9 @@ class LidarMapper : public Component {
   OccupancyGrid grid_;
   PoseHistory poses_;
   std::string odometry_frame_;
+  StaticTransforms mounts_;
   std::deque<sensor_msgs::msg::LaserScan> waiting_;
-  std::uint64_t dropped_ = 0;  // scans without a pose
+  std::uint64_t dropped_ = 0;  // scans without a pose, or without a place on the body
   std::uint64_t refused_ = 0;  // scans that the grid cannot take
   bool changed_ = false;
   bool adopted_ = false;  // another instance's map

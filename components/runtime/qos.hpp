@@ -52,6 +52,12 @@ inline constexpr QosProfile event{"event", true, false, 256, false};
 /// Images and clouds: large, at a rate.
 inline constexpr QosProfile bulk{"bulk", false, false, 4, true};
 
+/// The same for a topic whose readers need the last `depth` samples.
+constexpr QosProfile keeping(QosProfile profile, int depth) {
+  profile.depth = depth;
+  return profile;
+}
+
 /// All of them, for who takes a name from a person.
 inline constexpr const QosProfile* profiles[] = {&sensor, &state, &command, &map, &event, &bulk};
 

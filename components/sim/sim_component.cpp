@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "components/conversions.hpp"
 #include "components/runtime/staleness.hpp"
 #include "components/sim/simulation.hpp"
+#include "components/static_transforms.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {
@@ -44,6 +46,7 @@ class SimComponent : public Component {
     battery_ = advertise(topic::battery);
     truth_ = advertise(topic::sim_truth);
     clock_ = advertise(topic::clock);
+    tf_static_ = advertise(topic::tf_static);
     subscribe(topic::motors, [this](const swiftlet_msgs::msg::MotorCommand& command) {
       motor_watch_.heard(now());
       std::copy(command.thrust().begin(), command.thrust().end(), thrust_.data());
@@ -58,6 +61,7 @@ class SimComponent : public Component {
   void catch_up(Time now) {
     if (!begin_) begin_ = now - Simulation::kStep;
     if (motor_watch_.stale(now)) stop_motors();
+    if (active() && !std::exchange(mounts_told_, true)) publish_mounts(now);
     while (*begin_ + simulation_.time().time_since_epoch() + Simulation::kStep <= now) {
       publish(simulation_.step(Simulation::kStep, thrust_));
     }
@@ -72,6 +76,24 @@ class SimComponent : public Component {
 
   /// The simulation counts from zero, the run from wherever its clock began.
   Time run_time(Time simulated) const { return *begin_ + simulated.time_since_epoch(); }
+
+  /// Where the sensors sit on the body: once, for all who come later, too.
+  void publish_mounts(Time now) {
+    // A Range is along the x axis of its frame; the sonar looks along its own -z.
+    const Eigen::Quaterniond x_down(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitY()));
+    const Scenario::Sensors& sensors = simulation_.scenario().sensors;
+    tf2_msgs::msg::TFMessage message;
+    const auto add = [&](const char* frame, const Mount& mount) {
+      message.transforms().push_back(
+          to_transform(now, frame::kBody, frame, {mount.position, mount.attitude}));
+    };
+    add(frame::kLaser, sensors.lidar.mount);
+    add(frame::kImu[0], sensors.imu0.mount);
+    add(frame::kImu[1], sensors.imu1.mount);
+    add(frame::kImu[2], sensors.imu2.mount);
+    add(frame::kRangeDown, {sensors.sonar.mount.position, sensors.sonar.mount.attitude * x_down});
+    tf_static_.publish(message);
+  }
 
   void publish(const SensorReadings& readings) {
     if (++steps_ % kTruthEvery == 0) publish_truth();
@@ -105,7 +127,7 @@ class SimComponent : public Component {
 
   void publish(std::size_t index, const ImuReading& reading) {
     auto& message = imu_message_;
-    message.header(make_header(run_time(reading.time), frame::kBody));
+    message.header(make_header(run_time(reading.time), frame::kImu[index]));
     message.orientation_covariance()[0] = -1.0;  // by its definition: there is no orientation
     message.angular_velocity(to_vector3(reading.sample.angular_velocity));
     message.linear_acceleration(to_vector3(reading.sample.specific_force));
@@ -142,7 +164,7 @@ class SimComponent : public Component {
 
   void publish(const RangeReading& reading) {
     sensor_msgs::msg::Range message;
-    message.header(make_header(run_time(reading.time), frame::kBody));
+    message.header(make_header(run_time(reading.time), frame::kRangeDown));
     message.radiation_type(sensor_msgs::msg::Range_Constants::ULTRASOUND);
     message.field_of_view(static_cast<float>(reading.field_of_view));
     message.min_range(static_cast<float>(reading.range_min));
@@ -174,6 +196,7 @@ class SimComponent : public Component {
   Simulation simulation_;
   std::optional<Time> begin_;  // of the simulation, on the clock of the run
   std::int64_t steps_ = 0;
+  bool mounts_told_ = false;
   Eigen::Vector4d thrust_ = Eigen::Vector4d::Zero();
   bool armed_ = false;
   StalenessWatch motor_watch_;
@@ -185,6 +208,7 @@ class SimComponent : public Component {
   Publisher<sensor_msgs::msg::BatteryState> battery_;
   Publisher<swiftlet_msgs::msg::SimTruth> truth_;
   Publisher<rosgraph_msgs::msg::Clock> clock_;
+  Publisher<tf2_msgs::msg::TFMessage> tf_static_;
 };
 
 const RegisterComponent<SimComponent> kRegistered{"sim",
