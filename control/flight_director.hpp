@@ -69,7 +69,7 @@ class FlightDirector {
     /// An estimate older than this is lost. A standby estimator takes over before, and the flight
     /// controller bridges the gap with its IMU [s].
     double estimate_timeout = 0.25;
-    double estimate_sigma_max = 0.30;  ///< of the position, any axis [m]
+    double estimate_sigma_max = 0.30;      ///< of the position, any axis [m]
     double heading_sigma_to_arm = 0.02;    ///< better known before take-off [rad]
     double min_battery_percentage = 0.15;  ///< to take off [0..1]
   };
@@ -78,7 +78,7 @@ class FlightDirector {
     Mode mode = Mode::kGrounded;
     bool armed = false;
     bool ready = false;
-    std::string reason;  ///< of the last change, or why not ready
+    std::string reason;  ///< of the last change or noted refusal, or why not ready
     double height = 0.0;
     std::size_t waypoint = 0;  ///< flown to, from 1; 0 without a mission
     std::size_t waypoint_count = 0;
@@ -129,6 +129,8 @@ class FlightDirector {
   /// Checks the mission and begins to fly it. `id` is the same for the same waypoints.
   Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
   void set_plan(const PlanAnswer& answer);
+  /// Puts into the status why something was refused, for who gets no answer.
+  void note_refusal(const std::string& reason) { flying_.last_reason = reason; }
 
   /// What is wrong elsewhere on board: it keeps from arming. "" where nothing is.
   void set_system_problem(const std::string& problem) { system_problem_ = problem; }
@@ -138,6 +140,8 @@ class FlightDirector {
 
   Directive tick(Time now);
   Status status(Time now) const;
+  /// Of the reference that is flown, above the origin of the map [m].
+  double altitude(Time now) const { return reference(now).position.z(); }
 
   State state() const;
   void restore(const State& state);

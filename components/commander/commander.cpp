@@ -7,6 +7,7 @@
 
 #include "components/commander/attendance.hpp"
 #include "components/commander/mission_message.hpp"
+#include "components/commander/request_message.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
@@ -41,24 +42,6 @@ FlightDirector::Params read_params(const Config& config) {
   config.read("heading_sigma_to_arm", params.heading_sigma_to_arm, kPositive);
   config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
   return params;
-}
-
-std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command) {
-  using namespace swiftlet_msgs::msg::ModeCommand_Constants;
-  switch (command.command()) {
-    case ARM:
-      return Request::arm();
-    case DISARM:
-      return Request::disarm();
-    case TAKEOFF:
-      return Request::takeoff(command.altitude());
-    case HOVER:
-      return Request::hover();
-    case LAND:
-      return Request::land();
-    default:
-      return std::nullopt;
-  }
 }
 
 std::uint8_t to_msg(SetpointKind kind) {
@@ -108,6 +91,13 @@ class Commander : public Component {
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
       answer(mission.id(), [&] { return carry_out(mission); });
     });
+    subscribe(topic::goal_pose, [this](const geometry_msgs::msg::PoseStamped& goal) {
+      if (has_stamp(goal)) {
+        answer(goal_id(goal), [&] { return carry_out(goal); });
+      } else if (active()) {
+        tell(acknowledgement(goal_id(goal), carry_out(goal)));
+      }
+    });
     subscribe(topic::commander_state, [this](const swiftlet_msgs::msg::CommanderState& state) {
       if (!active()) restore(state);
     });
@@ -142,6 +132,20 @@ class Commander : public Component {
     return result;
   }
 
+  /// A mission of one waypoint. Who sends it hears no acknowledgement: a refusal is in the status.
+  Result<Acceptance> carry_out(const geometry_msgs::msg::PoseStamped& goal) {
+    const auto waypoint = waypoint_of(goal, director_.altitude(now()));
+    Result<Acceptance> result = waypoint.ok()
+                                    ? director_.fly(goal_identity(goal), {*waypoint}, now())
+                                    : Result<Acceptance>(waypoint.error());
+    if (result.ok()) {
+      mission_id_ = goal_id(goal);
+    } else {
+      director_.note_refusal(result.error().reason);
+    }
+    return result;
+  }
+
   /// Carries a command out once, and acknowledges it each time it comes.
   template <class CarryOut>
   void answer(const std::string& id, CarryOut carry_out) {
@@ -152,7 +156,13 @@ class Commander : public Component {
         return;
       }
     }
-    const Result<Acceptance> result = carry_out();
+    answered_.push_back(acknowledgement(id, carry_out()));
+    if (answered_.size() > kRememberedCommands) answered_.pop_front();
+    tell(answered_.back());
+  }
+
+  swiftlet_msgs::msg::CommandAck acknowledgement(const std::string& id,
+                                                 const Result<Acceptance>& result) {
     swiftlet_msgs::msg::CommandAck ack;
     ack.header(make_header(now(), frame::kMap));
     ack.id(id);
@@ -161,8 +171,10 @@ class Commander : public Component {
       ack.reason(result.error().reason);
       log()->warn("{}", result.error().reason);
     }
-    answered_.push_back(ack);
-    if (answered_.size() > kRememberedCommands) answered_.pop_front();
+    return ack;
+  }
+
+  void tell(const swiftlet_msgs::msg::CommandAck& ack) {
     publish_state(now());
     ack_.publish(ack);
     publish_status(now());

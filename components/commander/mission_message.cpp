@@ -5,16 +5,18 @@
 #include <zlib.h>
 
 #include "components/conversions.hpp"
-#include "components/runtime/message.hpp"
 
 namespace swiftlet {
+
+std::uint32_t checksum(const Cdr& cdr) {
+  return static_cast<std::uint32_t>(
+      crc32(crc32(0, nullptr, 0), cdr.data(), static_cast<uInt>(cdr.size())));
+}
 
 std::uint32_t checksum(const swiftlet_msgs::msg::Mission& mission) {
   swiftlet_msgs::msg::Mission bare;
   bare.waypoints(mission.waypoints());
-  const Cdr cdr = to_cdr(bare);
-  return static_cast<std::uint32_t>(
-      crc32(crc32(0, nullptr, 0), cdr.data(), static_cast<uInt>(cdr.size())));
+  return checksum(to_cdr(bare));
 }
 
 swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,

@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/message.hpp"
 #include "control/flight_director.hpp"
 #include "swiftlet_msgs.h"
 
 namespace swiftlet {
+
+/// CRC-32 of a serialisation.
+std::uint32_t checksum(const Cdr& cdr);
 
 /// CRC-32 of the waypoints' serialisation: the same for the same waypoints, whoever sends them.
 std::uint32_t checksum(const swiftlet_msgs::msg::Mission& mission);
