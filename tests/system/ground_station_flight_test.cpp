@@ -16,21 +16,6 @@ class GroundStationFlight : public LiveVehicleTest {
     if (kSlowdown > 10) GTEST_SKIP() << "the thread sanitizer is too slow to fly in real time";
     start_vehicle(office());
   }
-
-  static double distance(const json& status, double x, double y) {
-    const auto& position = status["position_m"];
-    return std::hypot(position[0].get<double>() - x, position[1].get<double>() - y);
-  }
-
-  /// Waits for the end of a mode, which must be `next`.
-  void ends_in(const std::string& mode, const std::string& next, Seconds limit) {
-    json last;
-    ASSERT_TRUE(status_becomes("out of " + mode, limit, [&](const json& status) {
-      last = status;
-      return status["mode"] != mode;
-    }));
-    EXPECT_EQ(last["mode"], next) << last.dump(2);
-  }
 };
 
 TEST_F(GroundStationFlight, FourProcessesFlyByCommandsAlone) {

@@ -48,4 +48,18 @@ void LiveVehicleTest::command(const Arguments& arguments) {
   EXPECT_EQ(finished.out, arguments.front() + ": accepted\n");
 }
 
+void LiveVehicleTest::ends_in(const std::string& mode, const std::string& next, Seconds limit) {
+  nlohmann::json last;
+  ASSERT_TRUE(status_becomes("out of " + mode, limit, [&](const nlohmann::json& status) {
+    last = status;
+    return status["mode"] != mode;
+  }));
+  EXPECT_EQ(last["mode"], next) << last.dump(2);
+}
+
+double LiveVehicleTest::distance(const nlohmann::json& status, double x, double y) {
+  const auto& position = status["position_m"];
+  return std::hypot(position[0].get<double>() - x, position[1].get<double>() - y);
+}
+
 }  // namespace swiftlet::test

@@ -33,6 +33,10 @@ class LiveVehicleTest : public SystemTest {
   }
   /// Sends a command that must be accepted.
   void command(const Arguments& arguments);
+  /// Waits for the end of a mode, which must be `next`.
+  void ends_in(const std::string& mode, const std::string& next, Seconds limit);
+  /// Of the vehicle from a place, seen from above [m].
+  static double distance(const nlohmann::json& status, double x, double y);
 
   std::vector<Arguments> hosts_;
   std::vector<Process> processes_;
