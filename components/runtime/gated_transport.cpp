@@ -6,6 +6,9 @@
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <new>
 #include <utility>
 
 #include "components/runtime/log.hpp"
@@ -28,6 +31,21 @@ struct GatedDescriptor : transport::ChainingTransportDescriptor {
   Gate gate;
 };
 
+constexpr std::size_t kLargestDatagram = 1 << 16;
+
+/// A copy that RtpsGuard::kFragmentOverrun bytes follow, valid until the next call in this thread.
+/// Those are not touched, so that they take no memory.
+const rtps::octet* with_room_behind(const rtps::octet* buffer, std::uint32_t size) {
+  struct Free {
+    void operator()(rtps::octet* memory) const { std::free(memory); }
+  };
+  thread_local const std::unique_ptr<rtps::octet, Free> copy(
+      static_cast<rtps::octet*>(std::calloc(1, kLargestDatagram + RtpsGuard::kFragmentOverrun)));
+  if (copy == nullptr) throw std::bad_alloc();
+  std::copy_n(buffer, std::min<std::size_t>(size, kLargestDatagram), copy.get());
+  return copy.get();
+}
+
 class GatedTransport : public transport::ChainingTransport {
  public:
   explicit GatedTransport(const GatedDescriptor& descriptor)
@@ -46,7 +64,9 @@ class GatedTransport : public transport::ChainingTransport {
   void receive(transport::TransportReceiverInterface* next, const rtps::octet* buffer,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    if (const char* problem = guard_.problem(buffer, size)) return drop(problem, remote);
+    const RtpsGuard::Verdict verdict = guard_.judge(buffer, size);
+    if (verdict.problem != nullptr) return drop(verdict.problem, remote);
+    if (verdict.has_fragments) buffer = with_room_behind(buffer, size);
     next->OnDataReceived(buffer, size, local, remote);
   }
 

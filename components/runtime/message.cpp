@@ -43,13 +43,24 @@ class GeneratedType : public MessageType {
   }
 
   bool deserialize(const std::uint8_t* bytes, std::size_t size, void* message) const override {
+    if (read(bytes, size, *static_cast<T*>(message))) return true;
+    // A sequence was given room for as many elements as there are bytes. Those who keep the object
+    // for the next message must not keep that.
+    if constexpr (!IsPlain<T>::value) *static_cast<T*>(message) = T();
+    return false;
+  }
+
+  std::size_t plain_size() const override { return IsPlain<T>::value ? sizeof(T) : 0; }
+
+ private:
+  static bool read(const std::uint8_t* bytes, std::size_t size, T& message) {
     try {
       // fastcdr takes a writable buffer and only reads it.
       eprosima::fastcdr::FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes)),
                                            size);
       CdrStream cdr(buffer, CdrStream::LITTLE_ENDIANNESS, CdrStream::DDS_CDR);
       cdr.read_encapsulation();
-      static_cast<T*>(message)->deserialize(cdr);
+      message.deserialize(cdr);
       return true;
     } catch (const eprosima::fastcdr::exception::Exception&) {
       return false;  // too short, or a value that the type cannot have
@@ -57,8 +68,6 @@ class GeneratedType : public MessageType {
       return false;  // a sequence longer than memory: the length is garbage
     }
   }
-
-  std::size_t plain_size() const override { return IsPlain<T>::value ? sizeof(T) : 0; }
 };
 
 }  // namespace

@@ -139,6 +139,7 @@ const char* check_fragment(const Body& body, std::uint8_t flags) {
   const std::uint64_t first = body.word(20), count = body.half(24);
   const std::uint64_t size = body.half(26), sample = body.word(28);
   if (first == 0 || count == 0 || size == 0) return "a DATA_FRAG without a fragment";
+  if (count > RtpsGuard::kMostFragments) return "a DATA_FRAG of too many fragments";
   if (sample > kLargestSample) return "a DATA_FRAG of a sample that is too large";
   if ((first - 1 + count - 1) * size >= sample) return "a DATA_FRAG that is not in its sample";
   const std::size_t payload = payload_of(body, flags, kFixed);
@@ -230,13 +231,14 @@ Claim claim_of(std::uint8_t id, const Body& body) {
 
 }  // namespace
 
-const char* RtpsGuard::problem(const std::uint8_t* datagram, std::size_t size) {
-  if (size < kHeader || std::memcmp(datagram, "RTPS", 4) != 0) return "no RTPS message";
+RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t size) {
+  Verdict verdict;
+  if (size < kHeader || std::memcmp(datagram, "RTPS", 4) != 0) return {"no RTPS message"};
   const bool from_eprosima = datagram[6] == 0x01 && datagram[7] == 0x0f;
   SequenceWatch::Guid writer;
   std::copy_n(datagram + 8, kPrefix, writer.begin());
   for (std::size_t place = kHeader; place < size;) {
-    if (size - place < kSubmessageHeader) return "a submessage that is cut";
+    if (size - place < kSubmessageHeader) return {"a submessage that is cut"};
     const std::uint8_t id = datagram[place], flags = datagram[place + 1];
     const bool little_endian = (flags & kLittleEndian) != 0;
     const std::size_t length = Body(datagram + place, size - place, little_endian).half(2);
@@ -244,20 +246,21 @@ const char* RtpsGuard::problem(const std::uint8_t* datagram, std::size_t size) {
     // Zero: to the end of the datagram, but for those that may be empty (9.4.5.1.3).
     const bool is_last = length == 0 && id != kInfoTimestamp && id != kPad;
     const Body body(datagram + place, is_last ? size - place : length, little_endian);
-    if (body.size() > size - place) return "a submessage that is cut";
-    if (const char* problem = check(id, flags, body)) return problem;
+    if (body.size() > size - place) return {"a submessage that is cut"};
+    if (const char* problem = check(id, flags, body)) return {problem};
     if (id == kStatistics && from_eprosima && body.size() != size - place) {
-      return "statistics that are not at the end";
+      return {"statistics that are not at the end"};
     }
     if (id == kInfoSource) std::copy_n(body.at(8), kPrefix, writer.begin());
     if (const Claim claim = claim_of(id, body); claim.writer != nullptr) {
       std::copy_n(claim.writer, writer.size() - kPrefix, writer.begin() + kPrefix);
-      if (!numbers_.accept(writer, claim.number)) return "a sequence number that is far ahead";
+      if (!numbers_.accept(writer, claim.number)) return {"a sequence number that is far ahead"};
     }
-    if (is_last) return nullptr;
+    verdict.has_fragments = verdict.has_fragments || id == kDataFragment;
+    if (is_last) break;
     place += (body.size() + 3) & ~std::size_t{3};
   }
-  return nullptr;
+  return verdict;
 }
 
 }  // namespace swiftlet

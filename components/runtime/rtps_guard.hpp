@@ -17,11 +17,21 @@ namespace swiftlet {
 /// of every vendor: what is not known here passes if its length is sound. This is no security: who
 /// can send to our ports and knows our writers can still speak in their name.
 ///
+/// One thing is left to the caller. Fragments of one sample that contradict each other are sound
+/// each by itself, and make Fast DDS read up to kFragmentOverrun bytes behind a datagram: what
+/// brings fragments must have so much memory behind it.
+///
 /// Safe to use from any thread.
 class RtpsGuard {
  public:
-  /// Why a datagram must not reach Fast DDS; null where it may.
-  const char* problem(const std::uint8_t* datagram, std::size_t size);
+  static constexpr std::size_t kMostFragments = 16;  ///< in a submessage; all that is known has one
+  static constexpr std::size_t kFragmentOverrun = kMostFragments << 16;
+
+  struct Verdict {
+    const char* problem = nullptr;  ///< why it must not reach Fast DDS; null where it may
+    bool has_fragments = false;
+  };
+  Verdict judge(const std::uint8_t* datagram, std::size_t size);
 
  private:
   SequenceWatch numbers_;

@@ -78,5 +78,22 @@ TEST(Message, BrokenBytesAreRefusedNotTrusted) {
   }
 }
 
+TEST(Message, WhatWasRefusedKeepsNoMemory) {
+  // Each byte of the payload may be the beginning of a segment of 328 bytes.
+  Cdr cdr = to_cdr(swiftlet_msgs::msg::Trajectory());
+  cdr.insert(cdr.end() - 4, 1'000'000, 0xFF);
+  swiftlet_msgs::msg::Trajectory trajectory;
+  for (std::size_t place = 4; place + 4 < 200 && place + 4 < cdr.size(); place += 4) {
+    Cdr changed = cdr;
+    changed[place] = changed[place + 1] = 0xFF;
+    changed[place + 2] = 0x07;
+    const bool taken = message_type<swiftlet_msgs::msg::Trajectory>().deserialize(
+        changed.data(), changed.size(), &trajectory);
+    if (!taken) {
+      EXPECT_LT(trajectory.segments().capacity(), 1000U) << place;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -69,7 +69,7 @@ class Datagram {
 };
 
 std::string problem_of(const Datagram& datagram, RtpsGuard&& guard = RtpsGuard()) {
-  const char* problem = guard.problem(datagram.bytes().data(), datagram.bytes().size());
+  const char* problem = guard.judge(datagram.bytes().data(), datagram.bytes().size()).problem;
   return problem == nullptr ? "" : problem;
 }
 
@@ -160,7 +160,8 @@ TEST_P(InEitherOrder, LengthsThatLeaveTheDatagramAreRefused) {
   data(whole, 5);
   for (std::size_t size = 0; size < whole.bytes().size(); ++size) {
     const Bytes cut(whole.bytes().begin(), whole.bytes().begin() + static_cast<long>(size));
-    EXPECT_EQ(RtpsGuard().problem(cut.data(), cut.size()) == nullptr, size == 20 || size == between)
+    EXPECT_EQ(RtpsGuard().judge(cut.data(), cut.size()).problem == nullptr,
+              size == 20 || size == between)
         << size;
   }
 }
@@ -234,8 +235,17 @@ TEST(RtpsGuard, AFragmentLiesInItsSampleAndBringsItsBytes) {
   EXPECT_THAT(problem_of(fragment({1, 4, 8, 20, 32})), HasSubstr("not in its sample"));
   EXPECT_THAT(problem_of(fragment({0xffffffff, 1, 8, 20, 8})), HasSubstr("not in its sample"));
   EXPECT_THAT(problem_of(fragment({1, 1, 8, 0xffffffff, 8})), HasSubstr("too large"));
+  EXPECT_THAT(problem_of(fragment({1, 17, 8, 200, 136})), HasSubstr("too many"));
   EXPECT_THAT(problem_of(fragment({1, 1, 8, 20, 7})), HasSubstr("payload is cut"));
   EXPECT_THAT(problem_of(fragment({3, 1, 8, 20, 3})), HasSubstr("payload is cut"));
+}
+
+TEST(RtpsGuard, SaysWhichDatagramsBringFragments) {
+  const auto has_fragments = [](const Datagram& datagram) {
+    return RtpsGuard().judge(datagram.bytes().data(), datagram.bytes().size()).has_fragments;
+  };
+  EXPECT_FALSE(has_fragments(heartbeat(1, 1)));
+  EXPECT_TRUE(has_fragments(fragment({}).begin(0x01).end()));
 }
 
 TEST(RtpsGuard, SetsHaveAtMost256NumbersAndAreWhole) {
@@ -264,7 +274,7 @@ TEST(RtpsGuard, NumbersAreThoseThatAWriterCanHave) {
 TEST(RtpsGuard, OneWriterDoesNotJumpAheadAndOthersDoNotHoldItBack) {
   RtpsGuard guard;
   const auto problem = [&guard](const Datagram& datagram) {
-    return guard.problem(datagram.bytes().data(), datagram.bytes().size());
+    return guard.judge(datagram.bytes().data(), datagram.bytes().size()).problem;
   };
   ASSERT_EQ(problem(heartbeat(1, 10)), nullptr);
   EXPECT_THAT(problem(heartbeat(1 << 24, 1 << 24)), StrEq("a sequence number that is far ahead"));
