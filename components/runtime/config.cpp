@@ -60,11 +60,13 @@ std::string to_yaml(const std::string& value) {
   text << value;
   return text.c_str();
 }
-template <class Item>
-std::string to_yaml(const std::vector<Item>& values) {
-  std::string text;
-  for (const Item& value : values) text += (text.empty() ? "" : ", ") + to_yaml(value);
-  return "[" + text + "]";
+std::string to_yaml(const std::vector<double>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
+std::string to_yaml(const std::vector<std::string>& values) {
+  YAML::Emitter text;  // which knows what must be quoted within brackets
+  text << YAML::Flow << values;
+  return text.c_str();
 }
 
 std::string join_path(const std::string& path, const std::string& key) {

@@ -130,6 +130,16 @@ TEST(Config, FilesThatAreMissingOrMalformedAreNamed) {
               AllOf(HasSubstr("f.yaml:1"), HasSubstr("nested")));
 }
 
+TEST(Config, TextsWithBracketsAndCommasSurviveADump) {
+  const std::vector<std::string> texts{"a,b", "[", "c]", "- d", "#", "e: f", "", "1.5", "'", "\""};
+  std::vector<std::string> given = texts;
+  const Config none;
+  none.read("texts", given);
+  given.clear();
+  Config::parse(none.dump(), "dump.yaml").read("texts", given);
+  EXPECT_EQ(given, texts);
+}
+
 TEST(Config, AFileThatGrowsByItsAliasesIsRefusedAtOnce) {
   // Nine to the power of nine values, in nine lines.
   std::string yaml = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
