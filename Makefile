@@ -4,11 +4,12 @@
 # Short names for what one does every day. Each target says what it is doing and repeats nothing
 # that is done already.
 
-.PHONY: help packages build program demo test test-full bench bench-middleware asan tsan format tidy clean
+.PHONY: help packages build program demo test test-full bench bench-middleware asan tsan fuzz format tidy clean
 
 PROGRAM := build/release/swiftlet
 SCENARIO := components/sim/scenarios/office.yaml
 JOBS ?= $(shell nproc)
+FUZZ_SECONDS ?= 60
 
 help:
 	@echo "make demo       install packages, build, and fly the office: out/demo/"
@@ -16,6 +17,7 @@ help:
 	@echo "make test-full  the tests with many seeds and long runs"
 	@echo "make bench      benchmarks;  make bench-middleware  beside Cyclone DDS, roscpp, Fast DDS"
 	@echo "make asan tsan  the tests under the address and the thread sanitizer"
+	@echo "make fuzz       libFuzzer on all that reads foreign bytes, FUZZ_SECONDS=60 each"
 	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
 	@echo "make clean      remove build/ and out/"
 
@@ -68,6 +70,13 @@ asan tsan: packages
 	@cmake --build --preset $@ --parallel $(JOBS)
 	@echo "== test: $@"
 	@ctest --preset $@
+
+fuzz: packages
+	@.ci/install-packages packages-fuzz.txt
+	@$(MAKE) --no-print-directory build/$@/build.ninja
+	@echo "== build: $@"
+	@cmake --build --preset $@ --parallel $(JOBS)
+	@tests/fuzz/run build/$@ $(FUZZ_SECONDS)
 
 format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
