@@ -41,7 +41,6 @@ enum Flag : std::uint8_t {
   kInlineQos = 0x02,
   kHasData = 0x04,
   kHasKey = 0x08,
-  kFragmentHasKey = 0x04,
 };
 
 constexpr std::uint8_t kBuiltin = 0xc0;  // kind of an entity of the protocol itself
