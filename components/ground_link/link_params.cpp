@@ -57,8 +57,8 @@ void check_inward(const Config& config, const std::string& name) {
 
 const std::vector<InwardTopic>& inward_topics() {
   static const std::vector<InwardTopic> topics{
-      inward_topic(topic::mode), inward_topic(topic::waypoints), inward_topic(topic::goal),
-      inward_topic(topic::parameter_request)};
+      inward_topic(topic::mode), inward_topic(topic::waypoints), inward_topic(topic::goal_pose),
+      inward_topic(topic::goal), inward_topic(topic::parameter_request)};
   return topics;
 }
 
@@ -83,7 +83,8 @@ GroundLinkParams read_ground_link(const Config& config, int vehicle_domain) {
       params.outward.push_back(read_outward(section));
     }
   }
-  params.inward = {topic::mode.name, topic::waypoints.name, topic::parameter_request.name};
+  params.inward = {topic::mode.name, topic::waypoints.name, topic::goal_pose.name,
+                   topic::parameter_request.name};
   config.read("inward", params.inward);
   std::set<std::string> names;
   for (const std::string& name : params.inward) {

@@ -105,8 +105,8 @@ TEST(Diagnosis, ATopicThatIsReadAndNotWritten) {
 
 TEST(Diagnosis, CommandsAndViewersMayWait) {
   auto ends = sound();
-  for (const char* topic :
-       {"rt/mode", "rt/uav1/waypoints", "rt/parameter/request", "rt/mode/ack"}) {
+  for (const char* topic : {"rt/mode", "rt/uav1/waypoints", "rt/uav1/goal_pose",
+                            "rt/parameter/request", "rt/mode/ack"}) {
     ends.push_back(reader(topic, "estimator"));
   }
   Endpoint viewer = reader("rt/map", "");
