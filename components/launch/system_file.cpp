@@ -147,7 +147,8 @@ SystemFile SystemFile::load(const std::filesystem::path& file) {
   config.read("scenario", scenario);
   if (!scenario.empty()) {
     system.scenario = config.folder() / scenario;
-    if (!std::filesystem::is_regular_file(system.scenario)) {
+    std::error_code ignored;  // such as a name that is too long
+    if (!std::filesystem::is_regular_file(system.scenario, ignored)) {
       config.fail("scenario", fmt::format("there is no file {}", system.scenario.string()));
     }
   }

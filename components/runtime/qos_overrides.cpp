@@ -47,7 +47,8 @@ class QosOverridesReader {
       : file_(file), names_(names) {}
 
   QosOverrides read() {
-    if (!std::filesystem::is_regular_file(file_)) {
+    std::error_code ignored;  // such as a name that is too long
+    if (!std::filesystem::is_regular_file(file_, ignored)) {
       throw ConfigError(fmt::format("{}: there is no such file", file_));
     }
     tinyxml2::XMLDocument document;

@@ -42,11 +42,21 @@ struct Place {
   std::string element;  // "model 'office' / link 'walls' / collision 'north'"
 };
 
+/// False also for names that no file can have.
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 [[noreturn]] void fail(const Place& place, const sdf::ElementPtr& element,
                        const std::string& problem) {
   const bool has_line = element && element->LineNumber().has_value();
   const std::string line = has_line ? fmt::format(":{}", *element->LineNumber()) : "";
-  const bool has_file = element && fs::exists(element->FilePath());
+  const bool has_file = element && is_there(element->FilePath());
   const std::string file = has_file ? element->FilePath() : place.file.string();
   throw ConfigError(fmt::format("{}{}: {}: {}", file, line, place.element, problem));
 }
@@ -86,8 +96,8 @@ Shape mesh_shape(const sdf::Mesh& mesh, const Place& place) {
   }
   const fs::path folder = sdf_file.parent_path();
   fs::path file = folder / uri;
-  if (!fs::exists(file)) file = folder.parent_path() / uri;  // model://name/meshes/...
-  if (!fs::is_regular_file(file)) {
+  if (!is_there(file)) file = folder.parent_path() / uri;  // model://name/meshes/...
+  if (!is_file(file)) {
     fail(place, mesh.Element(),
          fmt::format("mesh file '{}' is not there; paths are relative to {}", mesh.Uri(),
                      folder.empty() ? "." : folder.string()));
@@ -190,7 +200,7 @@ std::string find_included(const fs::path& folder, std::string name) {
   const std::string scheme = "model://";
   if (name.rfind(scheme, 0) == 0) name.erase(0, scheme.size());
   for (const fs::path& candidate : {folder / name, folder / "models" / name}) {
-    if (fs::exists(candidate)) return candidate.string();
+    if (is_there(candidate)) return candidate.string();
   }
   return "";
 }
@@ -253,7 +263,7 @@ class CapturedStandardError {
 }  // namespace
 
 World World::load(const fs::path& file, const std::vector<std::string>& ground_models) {
-  if (!fs::is_regular_file(file)) {
+  if (!is_file(file)) {
     throw ConfigError(fmt::format("{}: world file cannot be read; check the path", file.string()));
   }
   const fs::path folder = file.parent_path();
