@@ -107,6 +107,10 @@ std::size_t count_common(const std::vector<json>& theirs, const std::vector<json
 TEST_F(SeenByRos2, ACycloneReaderGetsTheValuesThatOurOwnReaderGets) {
   start_standing();
   Process theirs = ros_reader("-", {"odometry", "scan"});
+  ASSERT_TRUE(becomes_true(Seconds(30.0), [&] {
+    const std::string seen = theirs.out();
+    return count(seen, R"("topic":"scan")") > 0 && count(seen, R"("topic":"odometry")") > 0;
+  })) << theirs.err();
   Process odometry = start({"topic", "echo", "--json", "odometry"});
   Process scan = start({"topic", "echo", "--json", "scan"});
   constexpr std::size_t kScans = 20;
