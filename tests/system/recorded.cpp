@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "components/runtime/reflection/idl_schema.hpp"
 #include "components/bag/mcap/reader.hpp"
 #include "components/bag/mcap/writer.hpp"
 #include "components/conversions.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 
 namespace swiftlet::test {
 
@@ -84,7 +84,9 @@ void write_recording(const std::filesystem::path& file) {
     const Time time = Time{} + std::chrono::milliseconds(1000 + 10 * i);
     RigidBodyState state;
     state.p_WB = {0.001 * i, 0.0, 1.0};
-    write_message(*writer, odometry, time, to_odometry(time, state));
+    auto message = to_odometry(time, state);
+    message.child_frame_id("laser");  // that of the scanner itself: no tf_static is needed
+    write_message(*writer, odometry, time, message);
     if (i % 10 == 5) write_message(*writer, scan, time, round_room(time));
   }
   ASSERT_TRUE(writer->close().ok());
