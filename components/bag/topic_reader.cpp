@@ -42,7 +42,7 @@ void TopicReader::run() {
   // For a while both readers hear the same.
   if (replaced_ && !watch_.is_new(origin.writer, origin.sequence)) return;
   const std::uint64_t missing = watch_.missing_before(origin.writer, origin.sequence);
-  if (max_bytes_ > 0) limit_memory(cdr.size());
+  if (max_bytes_ > 0) limit_memory(cdr.size(), origin.writer);
   on_sample_(std::move(cdr), origin, missing);
 }
 
@@ -53,11 +53,13 @@ bool TopicReader::take(Cdr& cdr, SampleOrigin& origin) {
   return true;
 }
 
-void TopicReader::limit_memory(std::size_t sample) {
+void TopicReader::limit_memory(std::size_t sample, const EndpointGuid& writer) {
   const auto depth = static_cast<std::uint64_t>(spec_.qos.depth);
   if (old_ || sample * depth <= 2 * max_bytes_) return;
   const int wanted = std::max(static_cast<int>(max_bytes_ / sample), kLeastDepth);
   if (wanted >= spec_.qos.depth) return;
+  const bool is_of_this_process = endpoint_id(writer).rfind(participant_.id(), 0) == 0;
+  if (is_of_this_process) return;
   spec_.qos.depth = wanted;
   old_ = std::move(reader_);
   reader_ = make_reader();

@@ -17,7 +17,9 @@ namespace swiftlet {
 ///
 /// A DDS reader has room for a number of samples, whatever their size, and where one is missing on
 /// the way, a reliable reader keeps all behind it. So one whose samples turn out to be large is
-/// replaced by one with room for fewer; the old one goes when the new one hears.
+/// replaced by one with room for fewer; the old one goes when the new one hears. That is not done
+/// for writers of this process: a reader that goes while such a writer writes takes what the others
+/// still wait for with it (Fast DDS 2.9).
 class TopicReader : public Task {
  public:
   /// `missing`: samples of the same writer that did not arrive before this one.
@@ -32,7 +34,7 @@ class TopicReader : public Task {
  private:
   std::unique_ptr<Reader> make_reader();
   bool take(Cdr& cdr, SampleOrigin& origin);
-  void limit_memory(std::size_t sample);
+  void limit_memory(std::size_t sample, const EndpointGuid& writer);
 
   Mailbox& mailbox_;
   Participant& participant_;
