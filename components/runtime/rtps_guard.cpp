@@ -16,7 +16,7 @@ constexpr std::uint32_t kMostBits = 256;  // of a set of numbers: 9.4.2.6, 9.4.2
 /// Above what any sample has, below what hurts.
 constexpr std::uint32_t kLargestSample = 64U << 20;
 /// A reader goes through a gap number by number.
-constexpr std::uint64_t kLongestGap = SequenceWatch::kWindow;
+constexpr std::uint64_t kLongestGap = PlausibleSequence::kWindow;
 /// 35 years at 1 kHz; sums with it do not overflow.
 constexpr std::uint64_t kLastSequenceNumber = std::uint64_t{1} << 40;
 
@@ -234,7 +234,7 @@ RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t si
   Verdict verdict;
   if (size < kHeader || std::memcmp(datagram, "RTPS", 4) != 0) return {"no RTPS message"};
   const bool from_eprosima = datagram[6] == 0x01 && datagram[7] == 0x0f;
-  SequenceWatch::Guid writer;
+  PlausibleSequence::Guid writer;
   std::copy_n(datagram + 8, kPrefix, writer.begin());
   for (std::size_t place = kHeader; place < size;) {
     if (size - place < kSubmessageHeader) return {"a submessage that is cut"};

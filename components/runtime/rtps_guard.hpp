@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "components/runtime/sequence_watch.hpp"
+#include "components/runtime/plausible_sequence.hpp"
 
 namespace swiftlet {
 
@@ -34,7 +34,7 @@ class RtpsGuard {
   Verdict judge(const std::uint8_t* datagram, std::size_t size);
 
  private:
-  SequenceWatch numbers_;
+  PlausibleSequence numbers_;
 };
 
 }  // namespace swiftlet

@@ -298,12 +298,12 @@ TEST(RtpsGuard, StatisticsOfFastDdsStandAtTheEnd) {
   EXPECT_EQ(statistics(kCyclone, false), "");
 }
 
-TEST(SequenceWatch, ANumberFarAheadIsBelievedWhenManyInARowAgree) {
-  SequenceWatch watch;
-  const SequenceWatch::Guid writer{1, 2, 3};
-  constexpr std::uint64_t kFar = SequenceWatch::kWindow * 100;
+TEST(PlausibleSequence, ANumberFarAheadIsBelievedWhenManyInARowAgree) {
+  PlausibleSequence watch;
+  const PlausibleSequence::Guid writer{1, 2, 3};
+  constexpr std::uint64_t kFar = PlausibleSequence::kWindow * 100;
   EXPECT_TRUE(watch.accept(writer, 5));
-  EXPECT_TRUE(watch.accept(writer, 5 + SequenceWatch::kWindow));
+  EXPECT_TRUE(watch.accept(writer, 5 + PlausibleSequence::kWindow));
   EXPECT_TRUE(watch.accept(writer, 3)) << "one that comes late";
   // Now and then one that is far ahead is never believed ...
   for (std::uint64_t i = 0; i < 1000; ++i) {
@@ -315,7 +315,7 @@ TEST(SequenceWatch, ANumberFarAheadIsBelievedWhenManyInARowAgree) {
   // ... but a writer that was out of reach for long is.
   int refused = 0;
   for (std::uint64_t i = 0; i < 100 && !watch.accept(writer, kFar + i); ++i) ++refused;
-  EXPECT_EQ(refused, SequenceWatch::kAgreeing - 1);
+  EXPECT_EQ(refused, PlausibleSequence::kAgreeing - 1);
   EXPECT_TRUE(watch.accept(writer, kFar + 1000));
 }
 

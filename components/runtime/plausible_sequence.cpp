@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/runtime/sequence_watch.hpp"
+#include "components/runtime/plausible_sequence.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -13,9 +13,9 @@ constexpr std::size_t kEntries = 4096;
 
 }  // namespace
 
-SequenceWatch::SequenceWatch() : entries_(kEntries) {}
+PlausibleSequence::PlausibleSequence() : entries_(kEntries) {}
 
-bool SequenceWatch::accept(const Guid& writer, std::uint64_t number) {
+bool PlausibleSequence::accept(const Guid& writer, std::uint64_t number) {
   const std::string_view key(reinterpret_cast<const char*>(writer.data()), writer.size());
   const std::size_t place = std::hash<std::string_view>()(key) % kEntries;
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -13,7 +13,7 @@ namespace swiftlet {
 /// A.1 does for RTP: a number that is far ahead of all before it is believed when those after it
 /// say the same. Of some thousand writers; of more, the newest are known. Safe to use from any
 /// thread.
-class SequenceWatch {
+class PlausibleSequence {
  public:
   using Guid = std::array<std::uint8_t, 16>;
 
@@ -22,7 +22,7 @@ class SequenceWatch {
   /// So many in a row that agree are believed, wherever they are.
   static constexpr int kAgreeing = 16;
 
-  SequenceWatch();
+  PlausibleSequence();
   /// Whether `number` of the writer is to be believed. The first of a writer is.
   bool accept(const Guid& writer, std::uint64_t number);
 
