@@ -67,6 +67,14 @@ std::string Attendance::problem(Time now) const {
   return "";
 }
 
+std::string Attendance::absence(const std::string& component, Time now) const {
+  const auto found = components_.find(component);
+  const Instance* active = found == components_.end() ? nullptr : leader(found->second);
+  if (active != nullptr && to_seconds(now - active->heard) <= kSilentStatus) return "";
+  return fmt::format("{}: has not said how it is; does it run, and is this host heard there?",
+                     component);
+}
+
 std::string Attendance::failure(const std::string& component, Time now) const {
   const auto found = components_.find(component);
   const Instance* active = found == components_.end() ? nullptr : leader(found->second);

@@ -22,6 +22,9 @@ class Attendance {
   /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
   /// writes it". "" where all is well. Who went away long ago is forgotten.
   std::string problem(Time now) const;
+  /// That a component without which nothing can be flown has not said how it is; only its status
+  /// tells that it hears what is sent to it. "" where it has.
+  std::string absence(const std::string& component, Time now) const;
   /// The same of one component that is relied on in flight, if it was ever there: that it is
   /// silent, or blocked for a while. An instance that stands by has the time to take over, also one
   /// of whoever should write what blocks it.

@@ -198,12 +198,17 @@ class Commander : public Component {
   }
 
   void check_others(Time now) {
-    if (ticks_ % kStatusEvery == 0) director_.set_system_problem(attendance_.problem(now));
+    if (ticks_ % kStatusEvery == 0) director_.set_system_problem(system_problem(now));
     std::string problem;
     for (const char* guide : kGuides) {
       if (problem.empty()) problem = attendance_.failure(guide, now);
     }
     director_.set_guidance_problem(problem);
+  }
+
+  std::string system_problem(Time now) const {
+    const std::string problem = attendance_.problem(now);
+    return problem.empty() ? attendance_.absence("flight_controller", now) : problem;
   }
 
   void on_activated(Time) override {

@@ -58,7 +58,7 @@ struct GoalBench : Bench {
       range.range(static_cast<float>(position->z() + 0.15));
       return range;
     });
-    every(topic::motors, 4ms, Time{}, [](Time) { return swiftlet_msgs::msg::MotorCommand(); });
+    send_motors();
     sender = std::make_shared<Publisher<PoseStamped>>(probe.advertise(topic::goal_pose));
     mode =
         std::make_shared<Publisher<swiftlet_msgs::msg::ModeCommand>>(probe.advertise(topic::mode));

@@ -34,6 +34,16 @@ TEST(Attendance, WhoWasNeverThereIsNotMissed) {
   EXPECT_EQ(attendance.failure("planner", Time(100s)), "");
 }
 
+TEST(Attendance, OneWithoutWhomNothingFliesMustHaveSaidHowItIs) {
+  Attendance attendance;
+  EXPECT_THAT(attendance.absence("flight_controller", Time(10s)), HasSubstr("has not said how"));
+  attendance.heard_status(status("flight_controller", "a", false, 0), Time(10s));
+  EXPECT_NE(attendance.absence("flight_controller", Time(10s)), "") << "one that stands by is none";
+  attendance.heard_status(status("flight_controller", "b", true, 1), Time(10s));
+  EXPECT_EQ(attendance.absence("flight_controller", Time(11s)), "");
+  EXPECT_NE(attendance.absence("flight_controller", Time(11100ms)), "");
+}
+
 TEST(Attendance, ThreePeriodsOfSilenceAreAFailure) {
   Attendance attendance;
   attendance.heard_status(status("planner", "a", true, 1), Time(10s));

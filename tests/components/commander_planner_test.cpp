@@ -45,7 +45,7 @@ struct CommanderBench : Bench {
       range.range(0.15f);
       return range;
     });
-    every(topic::motors, 4ms, Time{}, [](Time) { return MotorCommand(); });
+    send_motors();
     mode =
         std::make_shared<Publisher<swiftlet_msgs::msg::ModeCommand>>(probe.advertise(topic::mode));
     mission =

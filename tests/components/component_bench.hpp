@@ -62,6 +62,20 @@ struct Bench {
         },
         until);
   }
+  /// Of a flight controller that misses nothing.
+  void send_motors() {
+    every(topic::motors, std::chrono::milliseconds(4), Time{},
+          [](Time) { return swiftlet_msgs::msg::MotorCommand(); });
+    every(topic::component_status, std::chrono::milliseconds(20), Time{}, [](Time now) {
+      swiftlet_msgs::msg::ComponentStatus status;
+      status.header(make_header(now, ""));
+      status.component_name("flight_controller");
+      status.instance("the only one");
+      status.active(true);
+      status.period(0.02);
+      return status;
+    });
+  }
 
   template <class T, class Make>
   void every(const Topic<T>& topic, Duration period, Time from, Make make,
