@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "components/bag/loss_ledger.hpp"
-#include "components/runtime/executor.hpp"
-#include "components/runtime/participant.hpp"
+#include "components/runtime/dds/participant.hpp"
+#include "components/runtime/execution/executor.hpp"
 
 namespace swiftlet {
 

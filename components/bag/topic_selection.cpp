@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/runtime/names.hpp"
 
 namespace swiftlet {

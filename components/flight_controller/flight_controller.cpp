@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "components/conversions.hpp"
 #include "components/topics.hpp"
@@ -61,11 +65,14 @@ class FlightController : public Component {
       : Component(context), params_(read_params(parameters())), loop_(params_.loop, params_.model) {
     motors_ = advertise(topic::motors);
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
-      loop_.set_estimate(from_msg(odometry.header().stamp()), from_msg(odometry));
+      const Time stamp = from_msg(odometry.header().stamp());
+      odometry_offset_ = strange_offset(stamp, params_.loop.estimate_timeout);
+      loop_.set_estimate(stamp, from_msg(odometry));
     });
     subscribe(topic::setpoint, [this](const swiftlet_msgs::msg::Setpoint& setpoint) {
-      loop_.set_setpoint(
-          {from_msg(setpoint.header().stamp()), kind_of(setpoint.kind()), reference_of(setpoint)});
+      const Time stamp = from_msg(setpoint.header().stamp());
+      setpoint_offset_ = strange_offset(stamp, params_.loop.setpoint_timeout);
+      loop_.set_setpoint({stamp, kind_of(setpoint.kind()), reference_of(setpoint)});
     });
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       loop_.set_range_down(range.range());
@@ -82,8 +89,26 @@ class FlightController : public Component {
     return kind == LEVEL ? SetpointKind::kLevel : SetpointKind::kMotorsOff;
   }
 
+  /// By how much a stamp is off the IMU's clock [s], where that is too much for it to be flown.
+  std::optional<double> strange_offset(Time stamp, double timeout) const {
+    if (!imu_time_ || Freshness::plausible(stamp, *imu_time_, timeout)) return std::nullopt;
+    return to_seconds(stamp - *imu_time_);
+  }
+
+  std::string obstacle() const override {
+    for (const auto& [topic, offset] : {std::pair{topic::setpoint.name, setpoint_offset_},
+                                        std::pair{topic::odometry.name, odometry_offset_}}) {
+      if (!offset) continue;
+      return fmt::format(
+          "{}: its stamps are {:.2f} s {} the IMU's; are the clocks of all hosts synchronised?",
+          topic, std::abs(*offset), *offset > 0.0 ? "ahead of" : "behind");
+    }
+    return "";
+  }
+
   void control(const sensor_msgs::msg::Imu& imu) {
     const Time time = from_msg(imu.header().stamp());
+    imu_time_ = time;
     const FlightLoop::Output output = loop_.step(time, from_msg(imu));
     tell(output);
     command_.stamp(to_msg(time));
@@ -107,6 +132,9 @@ class FlightController : public Component {
   Params params_;
   FlightLoop loop_;
   std::int64_t samples_ = 0;
+  std::optional<Time> imu_time_;
+  std::optional<double> setpoint_offset_;  // of the last, where it is strange
+  std::optional<double> odometry_offset_;
   bool refusal_told_ = false;
   FlightLoop::Behaviour behaviour_ = FlightLoop::Behaviour::kMotorsOff;
   swiftlet_msgs::msg::MotorCommand command_;

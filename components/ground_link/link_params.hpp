@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/ground_link/link_budget.hpp"
-#include "components/runtime/network.hpp"
+#include "components/runtime/dds/network.hpp"
 #include "components/runtime/qos.hpp"
 
 namespace swiftlet {

@@ -8,7 +8,7 @@
 #include "components/introspection/client_run.hpp"
 #include "components/introspection/introspection_commands.hpp"
 #include "components/introspection/status_observer.hpp"
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 
 namespace swiftlet {
 namespace {

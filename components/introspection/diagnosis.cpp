@@ -10,9 +10,9 @@
 #include <set>
 
 #include "components/introspection/observer.hpp"
+#include "components/runtime/config/nearest_word.hpp"
 #include "components/runtime/message.hpp"
 #include "components/runtime/names.hpp"
-#include "components/runtime/nearest_word.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {

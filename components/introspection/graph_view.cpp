@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/runtime/message.hpp"
 #include "components/runtime/names.hpp"
 

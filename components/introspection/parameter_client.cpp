@@ -7,8 +7,8 @@
 
 #include <set>
 
+#include "components/runtime/config/nearest_word.hpp"
 #include "components/runtime/names.hpp"
-#include "components/runtime/nearest_word.hpp"
 #include "components/runtime/stamp.hpp"
 #include "components/runtime/topic.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/network.hpp"
+#include "components/runtime/dds/network.hpp"
 
 namespace swiftlet {
 

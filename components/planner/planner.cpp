@@ -5,7 +5,7 @@
 #include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
 #include "components/planner/trajectory_message.hpp"
-#include "components/runtime/staleness.hpp"
+#include "components/runtime/supervision/staleness.hpp"
 #include "components/topics.hpp"
 #include "estimation/geometry/so3.hpp"
 #include "planner/path/replanner.hpp"

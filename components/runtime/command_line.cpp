@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "components/runtime/dds/qos_overrides.hpp"
 #include "components/runtime/names.hpp"
-#include "components/runtime/qos_overrides.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {

@@ -38,8 +38,8 @@ class ParameterOptions {
   std::vector<std::string> values_;
 };
 
-/// `--domain`, `--vehicle`, `--network` and the rest of NetworkConfig, and `--qos-profiles`, for every
-/// verb that talks to others.
+/// `--domain`, `--vehicle`, `--network` and the rest of NetworkConfig, and `--qos-profiles`, for
+/// every verb that talks to others.
 class NetworkOptions {
  public:
   void add_to(CLI::App& verb);

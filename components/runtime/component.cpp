@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "components/runtime/names.hpp"
-#include "components/runtime/supervision.hpp"
+#include "components/runtime/supervision/supervision.hpp"
 
 namespace swiftlet {
 
@@ -91,6 +91,7 @@ std::vector<InputWatch::Problem> Component::problems(Time now) const {
     InputWatch::Problem problem = input->problem(now);
     if (!problem.text.empty()) problems.push_back(std::move(problem));
   }
+  if (std::string text = obstacle(); !text.empty()) problems.push_back({std::move(text), true});
   return problems;
 }
 

@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "components/runtime/config.hpp"
-#include "components/runtime/executor.hpp"
-#include "components/runtime/faults.hpp"
-#include "components/runtime/input_watch.hpp"
+#include "components/runtime/config/config.hpp"
+#include "components/runtime/dds/participant.hpp"
+#include "components/runtime/execution/executor.hpp"
 #include "components/runtime/loan.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/message.hpp"
-#include "components/runtime/participant.hpp"
 #include "components/runtime/qos.hpp"
+#include "components/runtime/supervision/faults.hpp"
+#include "components/runtime/supervision/input_watch.hpp"
 #include "components/runtime/topic.hpp"
 
 namespace swiftlet {
@@ -135,6 +135,8 @@ class Component {
   bool active() const { return gate_->active; }
   /// It takes over from another instance, or begins as the first.
   virtual void on_activated(Time) {}
+  /// What keeps it from its work although its inputs come; "" where nothing does.
+  virtual std::string obstacle() const { return ""; }
 
   /// How often others learn that it is alive: three times of it pass before another instance takes
   /// over. Longer than the longest callback. Only in the constructor.
@@ -142,7 +144,7 @@ class Component {
   /// Parameters that may change while it runs; see ParameterServer. Only in the constructor.
   void set_live_parameters(std::vector<std::string> names,
                            std::function<void(const Config& changed)> apply);
-  /// What is wrong with its inputs at this moment.
+  /// What is wrong with its inputs at this moment, and its obstacle.
   std::vector<InputWatch::Problem> problems(Time now) const;
 
   const Config& parameters() const { return context_.parameters; }

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "components/runtime/node_announcer.hpp"
+#include "components/runtime/supervision/node_announcer.hpp"
 
 namespace swiftlet {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "components/runtime/participant.hpp"
+#include "components/runtime/dds/participant.hpp"
 
 namespace swiftlet {
 

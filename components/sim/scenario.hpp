@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/sim/quadrotor.hpp"
 #include "components/sim/sensors/battery.hpp"
 #include "components/sim/sensors/imu.hpp"

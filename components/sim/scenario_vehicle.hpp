@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/sim/scenario.hpp"
 
 namespace swiftlet {

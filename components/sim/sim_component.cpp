@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "components/conversions.hpp"
-#include "components/runtime/staleness.hpp"
+#include "components/runtime/supervision/staleness.hpp"
 #include "components/sim/simulation.hpp"
 #include "components/static_transforms.hpp"
 #include "components/topics.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 
 namespace swiftlet {
 

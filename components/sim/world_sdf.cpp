@@ -12,7 +12,7 @@
 #include <sdf/sdf.hh>
 #include <sstream>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/sim/mesh_file.hpp"
 #include "components/sim/world.hpp"
 

@@ -27,7 +27,9 @@ using Time = RunClock::time_point;
 constexpr double to_seconds(Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
-constexpr double to_seconds(Time time) { return to_seconds(time.time_since_epoch()); }
+constexpr double to_seconds(Time time) {
+  return to_seconds(time.time_since_epoch());
+}
 
 /// The nearest whole number of nanoseconds. `seconds` must be finite and below 292 years.
 constexpr Duration from_seconds(double seconds) {

@@ -189,6 +189,33 @@ TEST(FlightControllerComponent, ACommanderWhoWasStartedAgainDoesNotStopItInTheAi
   EXPECT_THAT(bench.log.text(), HasSubstr("\"motors off\" from a commander that was away"));
 }
 
+TEST(FlightControllerComponent, SaysWhenACommanderHasAnotherClock) {
+  for (const auto& [offset, what] :
+       {std::pair{Duration(-50ms), "setpoint: its stamps are 0.05 s behind the IMU's"},
+        std::pair{Duration(300ms), "setpoint: its stamps are 0.30 s ahead of the IMU's"},
+        std::pair{Duration(0), ""}}) {
+    Bench bench("flight_controller");
+    auto& statuses = bench.record(topic::component_status);
+    bench.send_odometry({0, 0, 0});
+    bench.send_imu();
+    bench.every(topic::range_down, 50ms, Time{}, [](Time) { return sensor_msgs::msg::Range(); });
+    bench.every(topic::setpoint, 10ms, Time{}, [offset = offset](Time now) {
+      swiftlet_msgs::msg::Setpoint setpoint;
+      setpoint.header(make_header(now + offset, frame::kMap));
+      setpoint.kind(setpoint_kind::MOTORS_OFF);
+      return setpoint;
+    });
+    bench.run_until(Time(2s));
+    ASSERT_FALSE(statuses.empty());
+    const auto& status = statuses.back();
+    EXPECT_EQ(status.blocked(), offset != Duration(0));
+    ASSERT_EQ(status.problems().size(), offset == Duration(0) ? 0U : 1U);
+    if (status.blocked()) {
+      EXPECT_THAT(status.problems().front(), HasSubstr(what));
+    }
+  }
+}
+
 TEST(FlightControllerComponent, MotorsStandStillUntilTheyAreAskedFor) {
   Bench bench("flight_controller");
   auto& heard = bench.record(topic::motors);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 // A parameter file, read as components read theirs, and values of the command line.
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace {

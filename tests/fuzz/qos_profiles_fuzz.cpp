@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 // A user's file of quality of service profiles, read by us and by the XML parser of Fast DDS.
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
+#include "components/runtime/dds/qos_overrides.hpp"
 #include "components/runtime/log.hpp"
-#include "components/runtime/qos_overrides.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

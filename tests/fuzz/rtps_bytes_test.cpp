@@ -9,7 +9,7 @@
 #include <optional>
 #include <thread>
 
-#include "components/runtime/rtps_guard.hpp"
+#include "components/runtime/dds/rtps_guard.hpp"
 #include "tests/fuzz/rtps_wire.hpp"
 #include "tests/system/system_test.hpp"
 

@@ -14,8 +14,8 @@
 #include <map>
 #include <sstream>
 
-#include "tests/data_folder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
+#include "tests/data_folder.hpp"
 #include "tests/system/system_test.hpp"
 
 namespace swiftlet {

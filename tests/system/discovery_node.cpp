@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "components/runtime/command_line.hpp"
-#include "components/runtime/signals.hpp"
+#include "components/runtime/execution/signals.hpp"
 #include "components/topics.hpp"
 
 int main(int argc, char** argv) {

@@ -51,7 +51,8 @@ class Rewriter {
   std::uint64_t lost_messages() const {
     const std::uint64_t known = found_.lost_messages + undescribed_;
     const std::uint64_t saved = statistics().message_count;
-    return std::max(known, found_.counted.value_or(0) - std::min(found_.counted.value_or(0), saved));
+    return std::max(known,
+                    found_.counted.value_or(0) - std::min(found_.counted.value_or(0), saved));
   }
   /// Messages of channels that nothing describes.
   std::uint64_t undescribed() const { return undescribed_; }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 
 namespace swiftlet {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "all_messages.hpp"
-#include "components/runtime/reflection/idl_schema.hpp"
 #include "components/bag/mcap/writer.hpp"
 #include "components/runtime/message.hpp"
+#include "components/runtime/reflection/idl_schema.hpp"
 #include "tests/components/bag/node_decoder.hpp"
 #include "tests/components/bag/temporary_folder.hpp"
 

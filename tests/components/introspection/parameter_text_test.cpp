@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 
 namespace swiftlet {
 namespace {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "components/runtime/endpoint_qos.hpp"
+#include "components/runtime/dds/endpoint_qos.hpp"
 #include "components/runtime/topic.hpp"
 
 namespace swiftlet {

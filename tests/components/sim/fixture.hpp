@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "components/runtime/config.hpp"
+#include "components/runtime/config/config.hpp"
 #include "components/sim/world.hpp"
 
 namespace swiftlet::test {
