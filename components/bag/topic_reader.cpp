@@ -15,35 +15,30 @@ constexpr int kLeastDepth = 8;
 
 TopicReader::TopicReader(Mailbox& mailbox, Participant& participant, const EndpointSpec& spec,
                          std::uint64_t max_bytes, OnSample on_sample)
-    : mailbox_(mailbox),
+    : SampleTask(mailbox),
       participant_(participant),
       spec_(spec),
       max_bytes_(max_bytes),
-      max_pending_(spec.qos.depth),
       on_sample_(std::move(on_sample)),
-      reader_(make_reader()) {}
-
-std::unique_ptr<Reader> TopicReader::make_reader() {
-  // No more samples wait than the first reader had room for.
-  return participant_.make_reader(spec_, [this] {
-    if (pending_.fetch_add(1) < max_pending_) {
-      mailbox_.post(*this);
-    } else {
-      pending_.fetch_sub(1);
-    }
-  });
+      reader_(make_reader()) {
+  // No more samples wait than the first reader has room for.
+  set_limit(spec.qos.depth);
 }
 
-void TopicReader::run() {
-  pending_.fetch_sub(1);
+std::unique_ptr<Reader> TopicReader::make_reader() {
+  return participant_.make_reader(spec_, [this] { arrived(); });
+}
+
+bool TopicReader::take_one() {
   Cdr cdr;
   SampleOrigin origin;
-  if (!take(cdr, origin)) return;
+  if (!take(cdr, origin)) return false;
   // For a while both readers hear the same.
-  if (replaced_ && !watch_.is_new(origin.writer, origin.sequence)) return;
+  if (replaced_ && !watch_.is_new(origin.writer, origin.sequence)) return true;
   const std::uint64_t missing = watch_.missing_before(origin.writer, origin.sequence);
   if (max_bytes_ > 0) limit_memory(cdr.size(), origin.writer);
   on_sample_(std::move(cdr), origin, missing);
+  return true;
 }
 
 bool TopicReader::take(Cdr& cdr, SampleOrigin& origin) {

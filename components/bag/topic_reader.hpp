@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 
 #include "components/bag/loss_ledger.hpp"
 #include "components/runtime/dds/participant.hpp"
-#include "components/runtime/execution/executor.hpp"
+#include "components/runtime/execution/sample_task.hpp"
 
 namespace swiftlet {
 
@@ -20,7 +19,7 @@ namespace swiftlet {
 /// replaced by one with room for fewer; the old one goes when the new one hears. That is not done
 /// for writers of this process: a reader that goes while such a writer writes takes what the others
 /// still wait for with it (Fast DDS 2.9).
-class TopicReader : public Task {
+class TopicReader : public SampleTask {
  public:
   /// `missing`: samples of the same writer that did not arrive before this one.
   using OnSample = std::function<void(Cdr cdr, const SampleOrigin& origin, std::uint64_t missing)>;
@@ -29,22 +28,18 @@ class TopicReader : public Task {
   TopicReader(Mailbox& mailbox, Participant& participant, const EndpointSpec& spec,
               std::uint64_t max_bytes, OnSample on_sample);
 
-  void run() override;
-
  private:
+  bool take_one() override;
   std::unique_ptr<Reader> make_reader();
   bool take(Cdr& cdr, SampleOrigin& origin);
   void limit_memory(std::size_t sample, const EndpointGuid& writer);
 
-  Mailbox& mailbox_;
   Participant& participant_;
   EndpointSpec spec_;
   const std::uint64_t max_bytes_;
-  const int max_pending_;
   OnSample on_sample_;
   SequenceWatch watch_;
   bool replaced_ = false;
-  std::atomic<int> pending_{0};  // runs posted and not begun
   std::unique_ptr<Reader> old_;  // until the new one hears
   std::unique_ptr<Reader> reader_;
 };

@@ -152,24 +152,9 @@ void Component::listen(std::unique_ptr<SubscriptionTask> subscription, const End
 void Component::SubscriptionTask::listen(Participant& participant, const Executor& executor,
                                          const EndpointSpec& spec) {
   executor_ = &executor;
-  reader_ = participant.make_reader(spec, [this, at_once = spec.qos.at_once] {
-    if (pending_.fetch_add(1) < depth_) {
-      if (at_once) {
-        mailbox_.run_or_post(*this);
-      } else {
-        mailbox_.post(*this);
-      }
-    } else {
-      pending_.fetch_sub(1);
-    }
-  });
+  reader_ = participant.make_reader(spec, [this, at_once = spec.qos.at_once] { arrived(at_once); });
   // The user's file may have changed it.
-  depth_ = reader_->depth();
-}
-
-void Component::SubscriptionTask::run() {
-  pending_.fetch_sub(1);
-  dispatch_one(*reader_);
+  set_limit(reader_->depth());
 }
 
 ComponentRegistry& ComponentRegistry::instance() {

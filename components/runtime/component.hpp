@@ -14,6 +14,7 @@
 #include "components/runtime/config/config.hpp"
 #include "components/runtime/dds/participant.hpp"
 #include "components/runtime/execution/executor.hpp"
+#include "components/runtime/execution/sample_task.hpp"
 #include "components/runtime/loan.hpp"
 #include "components/runtime/log.hpp"
 #include "components/runtime/message.hpp"
@@ -155,27 +156,24 @@ class Component {
  private:
   friend class Supervision;
 
-  /// Takes one sample from its reader and hands it to the component, each time it runs.
-  class SubscriptionTask : public Task {
+  /// Takes samples from its reader and hands them to the component.
+  class SubscriptionTask : public SampleTask {
    public:
-    explicit SubscriptionTask(Mailbox& mailbox) : mailbox_(mailbox) {}
+    using SampleTask::SampleTask;
     void listen(Participant& participant, const Executor& executor, const EndpointSpec& spec);
     void silence() { reader_.reset(); }
-    void run() final;
     virtual void sample_rate(Time) {}
     virtual InputWatch::Problem problem(Time) const { return {}; }
 
    protected:
-    virtual void dispatch_one(Reader& reader) = 0;
+    virtual bool dispatch_one(Reader& reader) = 0;
     Time now() const { return executor_->now(); }
     int matched_writers() const { return reader_->matched_writers(); }
 
    private:
-    Mailbox& mailbox_;
+    bool take_one() final { return dispatch_one(*reader_); }
+
     const Executor* executor_ = nullptr;
-    std::atomic<int> pending_{0};  // runs posted and not begun
-    /// The reader keeps that many samples, so more runs than that would find nothing to take.
-    std::atomic<int> depth_{1};
     std::unique_ptr<Reader> reader_;
   };
 
@@ -187,16 +185,15 @@ class Component {
       const bool in_place = message_type<T>().plain_size() > 0;
       if (!in_place) message_ = std::make_unique<T>();
     }
-    void dispatch_one(Reader& reader) override {
+    bool dispatch_one(Reader& reader) override {
       SampleOrigin origin;
       const auto hand_over = [this, &origin](const void* message) {
         if (watch_.accept(origin.writer, now())) callback_(*static_cast<const T*>(message));
       };
-      if (message_ == nullptr) {
-        reader.take_in_place(hand_over, &origin);
-      } else if (reader.take(message_.get(), &origin)) {
-        hand_over(message_.get());
-      }
+      if (message_ == nullptr) return reader.take_in_place(hand_over, &origin);
+      if (!reader.take(message_.get(), &origin)) return false;
+      hand_over(message_.get());
+      return true;
     }
     void sample_rate(Time now) override { watch_.sample_rate(now); }
     InputWatch::Problem problem(Time now) const override {
@@ -216,14 +213,15 @@ class Component {
    public:
     RawSubscription(Mailbox& mailbox, Callback callback)
         : SubscriptionTask(mailbox), callback_(std::move(callback)) {}
-    void dispatch_one(Reader& reader) override {
+    bool dispatch_one(Reader& reader) override {
       SampleOrigin origin;
-      if (!reader.take(cdr_, &origin)) return;
+      if (!reader.take(cdr_, &origin)) return false;
       if constexpr (std::is_invocable_v<Callback, const Cdr&, const SampleOrigin&>) {
         callback_(std::as_const(cdr_), std::as_const(origin));
       } else {
         callback_(std::as_const(cdr_));
       }
+      return true;
     }
 
    private:
