@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace swiftlet {
 namespace {
@@ -42,18 +43,24 @@ void Attendance::heard_status(const swiftlet_msgs::msg::ComponentStatus& status,
   instance = {status, now, status.blocked() ? std::optional(since) : std::nullopt};
 }
 
-const Attendance::Instance* Attendance::leader(const Instances& instances) {
+const Attendance::Instance* Attendance::leader(const Instances& instances, Time now) {
+  // One that was killed goes on being the active one by its own last word.
+  const auto rank = [now](const Instance& instance) {
+    const bool is_silent =
+        silent(instance.status, to_seconds(now - instance.heard), kSilentPeriods);
+    return std::tuple(!is_silent, is_silent ? 0 : instance.status.term(), instance.heard);
+  };
   const Instance* leader = nullptr;
   for (const auto& [identity, instance] : instances) {
     if (!instance.status.active()) continue;
-    if (leader == nullptr || leader->status.term() < instance.status.term()) leader = &instance;
+    if (leader == nullptr || rank(*leader) < rank(instance)) leader = &instance;
   }
   return leader;
 }
 
 std::string Attendance::problem(Time now) const {
   for (const auto& [component, instances] : components_) {
-    const Instance* active = leader(instances);
+    const Instance* active = leader(instances, now);
     if (active == nullptr) continue;
     const double age = to_seconds(now - active->heard);
     if (age > kGone) continue;
@@ -69,7 +76,7 @@ std::string Attendance::problem(Time now) const {
 
 std::string Attendance::absence(const std::string& component, Time now) const {
   const auto found = components_.find(component);
-  const Instance* active = found == components_.end() ? nullptr : leader(found->second);
+  const Instance* active = found == components_.end() ? nullptr : leader(found->second, now);
   if (active != nullptr && to_seconds(now - active->heard) <= kSilentStatus) return "";
   return fmt::format("{}: has not said how it is; does it run, and is this host heard there?",
                      component);
@@ -77,7 +84,7 @@ std::string Attendance::absence(const std::string& component, Time now) const {
 
 std::string Attendance::failure(const std::string& component, Time now) const {
   const auto found = components_.find(component);
-  const Instance* active = found == components_.end() ? nullptr : leader(found->second);
+  const Instance* active = found == components_.end() ? nullptr : leader(found->second, now);
   if (active == nullptr) return "";
   const double age = to_seconds(now - active->heard);
   const bool has_standby =

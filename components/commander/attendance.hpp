@@ -37,8 +37,8 @@ class Attendance {
     std::optional<Time> blocked_since;
   };
   using Instances = std::map<std::string, Instance>;
-  /// The active one; of several the one that took over last.
-  static const Instance* leader(const Instances& instances);
+  /// The active one; of several that live the one that took over last, else the one heard last.
+  static const Instance* leader(const Instances& instances, Time now);
 
   std::map<std::string, Instances> components_;  // instances by their identity
 };

@@ -96,6 +96,20 @@ TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {
             "the planner cannot work: odometry: silent for 0.20 s");
 }
 
+TEST(Attendance, WhoWasStartedAgainCountsWhateverTheDeadOneWas) {
+  // It knows nothing of the terms before it, and its name may come before or behind.
+  for (const char* reborn : {"a", "c"}) {
+    Attendance attendance;
+    attendance.heard_status(status("flight_controller", "b", true, 2), Time(10s));
+    for (Time now(11s); now <= Time(12s); now += 100ms) {
+      attendance.heard_status(status("flight_controller", reborn, true, 1), now);
+    }
+    EXPECT_EQ(attendance.absence("flight_controller", Time(12s)), "") << reborn;
+    EXPECT_EQ(attendance.failure("flight_controller", Time(12s)), "") << reborn;
+    EXPECT_EQ(attendance.problem(Time(12s)), "") << reborn;
+  }
+}
+
 TEST(Attendance, WhoLeftLongAgoIsForgotten) {
   Attendance attendance;
   attendance.heard_status(status("planner", "a", true, 1), Time(10s));
