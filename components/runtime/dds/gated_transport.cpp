@@ -67,7 +67,7 @@ class GatedTransport : public transport::ChainingTransport {
     const RtpsGuard::Verdict verdict = guard_.judge(buffer, size);
     if (verdict.problem != nullptr) return drop(verdict.problem, remote);
     if (verdict.has_fragments) buffer = with_room_behind(buffer, size);
-    next->OnDataReceived(buffer, size, local, remote);
+    next->OnDataReceived(buffer, static_cast<std::uint32_t>(verdict.size), local, remote);
   }
 
  private:

@@ -233,11 +233,17 @@ Claim claim_of(std::uint8_t id, const Body& body) {
 RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t size) {
   Verdict verdict;
   if (size < kHeader || std::memcmp(datagram, "RTPS", 4) != 0) return {"no RTPS message"};
+  const auto cut_at = [&verdict](std::size_t sound) {
+    if (sound == kHeader) return Verdict{"a submessage that is cut"};
+    verdict.size = sound;
+    return verdict;
+  };
   const bool from_eprosima = datagram[6] == 0x01 && datagram[7] == 0x0f;
   PlausibleSequence::Guid writer;
   std::copy_n(datagram + 8, kPrefix, writer.begin());
   for (std::size_t place = kHeader; place < size;) {
-    if (size - place < kSubmessageHeader) return {"a submessage that is cut"};
+    const std::size_t begin = place;
+    if (size - place < kSubmessageHeader) return cut_at(begin);
     const std::uint8_t id = datagram[place], flags = datagram[place + 1];
     const bool little_endian = (flags & kLittleEndian) != 0;
     const std::size_t length = Body(datagram + place, size - place, little_endian).half(2);
@@ -245,7 +251,7 @@ RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t si
     // Zero: to the end of the datagram, but for those that may be empty (9.4.5.1.3).
     const bool is_last = length == 0 && id != kInfoTimestamp && id != kPad;
     const Body body(datagram + place, is_last ? size - place : length, little_endian);
-    if (body.size() > size - place) return {"a submessage that is cut"};
+    if (body.size() > size - place) return cut_at(begin);
     if (const char* problem = check(id, flags, body)) return {problem};
     if (id == kStatistics && from_eprosima && body.size() != size - place) {
       return {"statistics that are not at the end"};
@@ -259,6 +265,7 @@ RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t si
     if (is_last) break;
     place += (body.size() + 3) & ~std::size_t{3};
   }
+  verdict.size = size;
   return verdict;
 }
 

@@ -30,6 +30,9 @@ class RtpsGuard {
   struct Verdict {
     const char* problem = nullptr;  ///< why it must not reach Fast DDS; null where it may
     bool has_fragments = false;
+    /// So many bytes may reach it: less than the datagram where its end was cut off, as it is by a
+    /// receiver with less room (max_datagram) than the sender thinks.
+    std::size_t size = 0;
   };
   Verdict judge(const std::uint8_t* datagram, std::size_t size);
 

@@ -20,8 +20,11 @@ constexpr double kSlow = 0.5;
 bool InputWatch::accept(const EndpointGuid& writer, Time now) {
   if (periodic()) {
     const bool source_lives = heard_ && now - *heard_ <= kSilentPeriods * period_;
-    if (writer != source_ && source_lives) return false;
-    source_ = writer;
+    if (writer != source_) {
+      if (source_lives) return false;
+      source_ = writer;
+      samples_ = 0;  // its rate is that of the time since it speaks
+    }
   }
   heard_ = now;
   ++messages_;
@@ -29,6 +32,7 @@ bool InputWatch::accept(const EndpointGuid& writer, Time now) {
 }
 
 void InputWatch::sample_rate(Time now) {
+  if (!heard_) return;
   std::rotate(counts_.begin(), counts_.begin() + 1, counts_.end());
   counts_.back() = {now, messages_};
   ++samples_;

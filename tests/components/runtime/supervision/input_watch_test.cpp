@@ -57,5 +57,20 @@ TEST(InputWatch, HalfTheRateIsTooSlow) {
   EXPECT_THAT(problem_at(25ms), HasSubstr("40 Hz, 100 Hz are usual"));
 }
 
+TEST(InputWatch, TheRateIsThatOfTheTimeSinceTheWriterSpeaks) {
+  InputWatch watch("imu0", 10ms);
+  const auto speak = [&](const EndpointGuid& writer, Time from, Time until) {
+    for (Time now = from; now < until; now += 10ms) {
+      watch.accept(writer, now);
+      if (now.time_since_epoch() % 200ms == 0ms) watch.sample_rate(now);
+      EXPECT_EQ(watch.problem(now, 1).text, "") << to_seconds(now);
+    }
+  };
+  for (Time now{}; now < Time(3900ms); now += 200ms) watch.sample_rate(now);  // nobody is there yet
+  speak(kFirst, Time(3900ms), Time(6s));
+  for (Time now(6s); now < Time(6900ms); now += 200ms) watch.sample_rate(now);  // it was killed
+  speak(kSecond, Time(6900ms), Time(9s));
+}
+
 }  // namespace
 }  // namespace swiftlet
