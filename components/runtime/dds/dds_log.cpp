@@ -3,7 +3,7 @@
 #include "components/runtime/dds/dds_log.hpp"
 
 #include <fastdds/dds/log/Log.hpp>
-#include <mutex>
+#include <memory>
 
 #include "components/runtime/log.hpp"
 
@@ -24,14 +24,24 @@ class LogBridge : public dds::LogConsumer {
   }
 };
 
+/// The bridge while it stands. Fast DDS logs in a thread of its own that outlives main(): it must
+/// be cut off before our loggers are gone.
+class Bridge {
+ public:
+  Bridge() {
+    logger("dds");  // what is made before this is destroyed after it
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<LogBridge>());
+  }
+  ~Bridge() { dds::Log::ClearConsumers(); }  // after what waits has been told
+  Bridge(const Bridge&) = delete;
+  Bridge& operator=(const Bridge&) = delete;
+};
+
 }  // namespace
 
 void bridge_dds_log() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    dds::Log::ClearConsumers();
-    dds::Log::RegisterConsumer(std::make_unique<LogBridge>());
-  });
+  static const Bridge bridge;
 }
 
 }  // namespace swiftlet
