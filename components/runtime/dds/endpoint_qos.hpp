@@ -18,6 +18,7 @@ namespace swiftlet {
 struct EndpointPlace {
   bool isolated = false;  ///< nothing leaves the process
   bool shared = false;    ///< a plain type, in memory that other processes of this machine see, too
+  bool leaves_machine = false;  ///< over links that may be slow, or at a limited pace
 };
 
 /// Our profile in Fast DDS's terms, with what the user's file changes of it (null: nothing).

@@ -189,7 +189,11 @@ class Participant::Impl : public EndpointFactory {
     }
   }
 
-  EndpointPlace place(const EndpointSpec& spec) { return {options_.isolated, shares_memory(spec)}; }
+  EndpointPlace place(const EndpointSpec& spec) {
+    const NetworkConfig& network = options_.network;
+    const bool leaves = !options_.isolated && (!network.loopback_only() || network.pace > 0);
+    return {options_.isolated, shares_memory(spec), leaves};
+  }
 
   static const char* hint(const QosOverrides* overrides) {
     return overrides == nullptr ? "" : "; do the policies of --qos-profiles fit each other?";
