@@ -43,6 +43,7 @@ FlightDirector::FlightDirector(const Params& params) : params_(params), machine_
                 params.ground_height, params.plan_gap, params.arrival_distance,
                 params.arrival_speed, params.arrival_timeout, params.plan_timeout,
                 params.estimate_timeout, params.estimate_sigma_max, params.heading_sigma_to_arm}) &&
+      params.settling_to_arm >= 0.0 && params.settling_to_arm <= 3600.0 &&
       params.landing_resistance <= params.landing_depth && params.min_battery_percentage >= 0.0 &&
       params.min_battery_percentage <= 1.0;
   if (!fine) {
@@ -58,6 +59,8 @@ void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double
   const bool usable = state.p_WB.allFinite() && state.v_WB_W.allFinite() &&
                       std::abs(state.q_WB.norm() - 1.0) < 1e-3;
   if (!usable) return;  // its age will tell
+  const bool goes_on = std::abs(age(time, estimate_time_)) <= params_.estimate_timeout;
+  if (!goes_on) estimate_since_ = time;
   state_ = state;
   estimate_time_ = time;
   position_sigma_ = position_sigma;
@@ -94,6 +97,9 @@ std::string FlightDirector::not_ready_reason(Time now) const {
   if (!(heading_sigma_ <= params_.heading_sigma_to_arm)) {
     return fmt::format("heading is known to {:.3f} rad only, {:.3f} are needed; wait",
                        heading_sigma_, params_.heading_sigma_to_arm);
+  }
+  if (const double left = params_.settling_to_arm - age(now, estimate_since_); left > 0.0) {
+    return fmt::format("the estimate settles for {:.1f} s more", left);
   }
   if (age(now, motors_heard_) > kMotorsTimeout) {
     return "no motor commands were heard; is the flight_controller running?";

@@ -69,8 +69,11 @@ class FlightDirector {
     /// An estimate older than this is lost. A standby estimator takes over before, and the flight
     /// controller bridges the gap with its IMU [s].
     double estimate_timeout = 0.25;
-    double estimate_sigma_max = 0.30;      ///< of the position, any axis [m]
-    double heading_sigma_to_arm = 0.02;    ///< better known before take-off [rad]
+    double estimate_sigma_max = 0.30;    ///< of the position, any axis [m]
+    double heading_sigma_to_arm = 0.02;  ///< better known before take-off [rad]
+    /// Unbroken estimate before take-off: what is learnt of the sensors in that time is what
+    /// carries the vehicle down when the estimator dies during the climb [s].
+    double settling_to_arm = 8.0;
     double min_battery_percentage = 0.15;  ///< to take off [0..1]
   };
 
@@ -171,6 +174,7 @@ class FlightDirector {
 
   RigidBodyState state_;
   std::optional<Time> estimate_time_;
+  Time estimate_since_{};  // without a gap
   double position_sigma_ = 0.0;
   double heading_sigma_ = 0.0;
   std::optional<double> range_down_;

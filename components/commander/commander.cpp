@@ -40,6 +40,7 @@ FlightDirector::Params read_params(const Config& config) {
   config.read("plan_timeout", params.plan_timeout, kPositive);
   config.read("estimate_sigma_max", params.estimate_sigma_max, kPositive);
   config.read("heading_sigma_to_arm", params.heading_sigma_to_arm, kPositive);
+  config.read("settling_to_arm", params.settling_to_arm, {0.0, 3600.0});
   config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
   return params;
 }

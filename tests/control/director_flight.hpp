@@ -22,10 +22,16 @@ inline Duration seconds(double s) {
   return from_seconds(s);
 }
 
+/// For who does not want to wait for the estimate before each flight.
+inline FlightDirector::Params settled(FlightDirector::Params params = {}) {
+  params.settling_to_arm = 0.0;
+  return params;
+}
+
 /// A director, a vehicle that does what it is told (within a floor), and a planner that answers.
 /// Every tick checks that the reference that is tracked is finite and has no step.
 struct DirectorFlight {
-  explicit DirectorFlight(const FlightDirector::Params& params = {}) : director(params) {}
+  explicit DirectorFlight(const FlightDirector::Params& params = {}) : director(settled(params)) {}
 
   FlightDirector director;
   Time now{std::chrono::seconds(100)};

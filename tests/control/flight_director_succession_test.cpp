@@ -15,7 +15,7 @@ const std::vector<MissionWaypoint> kMission{{Vector3d(2.0, 0.0, 1.2), {}},
 
 /// Another director goes on, which has sensed the same and decided nothing so far.
 void hand_over(DirectorFlight& flight) {
-  FlightDirector successor{FlightDirector::Params{}};
+  FlightDirector successor{settled()};
   successor.restore(flight.director.state());
   flight.director = successor;
   flight.feed();

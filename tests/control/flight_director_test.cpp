@@ -19,7 +19,7 @@ using ::testing::StartsWith;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(FlightDirectorReadiness, NamesWhatIsMissing) {
-  FlightDirector director{FlightDirector::Params{}};
+  FlightDirector director{settled()};
   Time now(std::chrono::seconds(50));
   const auto refusal = [&] {
     const auto result = director.request(Request::arm(), now);
@@ -55,10 +55,41 @@ TEST(FlightDirectorReadiness, NamesWhatIsMissing) {
   EXPECT_EQ(refusal(), "armed");
 }
 
+TEST(FlightDirectorReadiness, WaitsForAnEstimateThatHasSettledWithoutAGap) {
+  FlightDirector director{FlightDirector::Params{}};
+  const double settling = FlightDirector::Params{}.settling_to_arm;
+  ASSERT_GT(settling, 5.0);
+  Time now(std::chrono::seconds(50));
+  const auto wait = [&](double time, bool estimator) {
+    for (const Time end = now + from_seconds(time); now < end; now += kTick) {
+      if (estimator) director.set_estimate(now, {}, 0.02, 0.01);
+      director.set_motors_heard(now);
+      director.set_range_down(0.15);
+    }
+  };
+  wait(settling - 1.0, true);
+  EXPECT_THAT(director.request(Request::arm(), now).error().reason,
+              HasSubstr("the estimate settles for 1.0 s more"));
+  wait(0.2, false);  // as when another estimator takes over
+  wait(0.9, true);
+  EXPECT_TRUE(director.status(now).ready);
+  wait(0.3, false);
+  wait(settling - 0.1, true);
+  EXPECT_THAT(director.status(now).reason, HasSubstr("settles for 0.1 s more"));
+  wait(0.2, true);
+  EXPECT_TRUE(director.request(Request::arm(), now).ok());
+  // An armed vehicle waits, too.
+  wait(0.3, false);
+  wait(0.1, true);
+  EXPECT_THAT(director.request(Request::takeoff(1.0), now).error().reason, HasSubstr("settles"));
+  wait(settling, true);
+  EXPECT_TRUE(director.request(Request::takeoff(1.0), now).ok());
+}
+
 TEST(FlightDirectorReadiness, WhatIsNoNumberDoesNotMakeReady) {
   const auto ready = [](const RigidBodyState& state, double position_sigma, double heading_sigma,
                         double range) {
-    FlightDirector director{FlightDirector::Params{}};
+    FlightDirector director{settled()};
     const Time now(std::chrono::seconds(50));
     director.set_estimate(now, state, position_sigma, heading_sigma);
     director.set_range_down(range);
@@ -334,6 +365,7 @@ TEST(FlightDirectorParams, UnusableOnesThrow) {
   EXPECT_TRUE(thrown([](P& p) { p.landing_resistance = 1.0; }));
   EXPECT_TRUE(thrown([](P& p) { p.plan_timeout = kNan; }));
   EXPECT_TRUE(thrown([](P& p) { p.estimate_timeout = 0.0; }));
+  EXPECT_TRUE(thrown([](P& p) { p.settling_to_arm = -1.0; }));
   EXPECT_TRUE(thrown([](P& p) { p.min_battery_percentage = 2.0; }));
   EXPECT_TRUE(thrown([](P& p) { p.modes.min_altitude = kNan; }));
 }

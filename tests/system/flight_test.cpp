@@ -118,6 +118,24 @@ TEST_F(Flight, BehindAClosedDoorEndsInHoverWithTheReason) {
   EXPECT_FALSE(truth.on_ground());
 }
 
+TEST_F(Flight, AnEstimatorThatDiesInTheClimbLeavesTheWallsAlone) {
+  const int seeds = full_tests() ? 24 : 6;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    for (const char* fault : {"kill estimator@11.2", "kill estimator@12"}) {
+      SCOPED_TRACE(fault + std::string(", seed ") + std::to_string(seed));
+      const Finished finished =
+          run({"--log", "warning", "fly", office(), "--report", path("blind"), "--seed",
+               std::to_string(seed), "--what-if", fault});
+      EXPECT_EQ(finished.exit_code, 1);
+      const json report = read_report(folder() / "blind");
+      ASSERT_FALSE(report.is_null()) << finished.err;
+      EXPECT_EQ(report["contacts"], 0);
+      EXPECT_THAT(report["reason"].get<std::string>(), HasSubstr("no odometry for"));
+      EXPECT_GT(report["flight_time_s"], 1.0) << "did not take off before";
+    }
+  }
+}
+
 TEST_F(Flight, EverySeedCompletesTheOffice) {
   const int seeds = full_tests() ? 50 : 3;
   std::vector<std::pair<std::string, Process>> under_way;
