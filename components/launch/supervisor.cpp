@@ -107,8 +107,9 @@ void Supervisor::handle_end(Place& place, const ChildEnd& end) {
                                name, describe(end), count, options_.restart.window));
     return;
   }
-  const double backoff = std::min(options_.restart.max_backoff,
-                                  options_.restart.backoff * std::pow(2.0, std::min(count, 30)));
+  const double backoff = std::max(
+      place.line.pause, std::min(options_.restart.max_backoff,
+                                 options_.restart.backoff * std::pow(2.0, std::min(count, 30))));
   restarts.push_back(now);
   place.start_at = now + seconds(backoff);
   log()->warn("{}: {}; starting it again in {:.1f} s ({} of {} in {} s)", name, describe(end),

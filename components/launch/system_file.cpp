@@ -16,6 +16,10 @@
 namespace swiftlet {
 namespace {
 
+/// Longer than the lease of a discovery server, 20 s: clients that did not miss it would take the
+/// one that is back for the old one, and pass over what it says (discovery-server.xml).
+constexpr double kServerPause = 21.0;
+
 constexpr int kLastDomain = 232;
 
 /// ", did you mean 'x'?" or "; there are x, y".
@@ -211,7 +215,8 @@ std::vector<CommandLine> command_lines(const SystemFile& system, const HostSpec&
     // What `fastdds discovery` runs, without the script in between that would not pass on signals.
     lines.push_back({"discovery_server",
                      {"fast-discovery-server", "-i", std::to_string(server.id), "-l",
-                      server.address, "-p", std::to_string(server.port)}});
+                      server.address, "-p", std::to_string(server.port)},
+                     kServerPause});
   }
   for (const ProcessSpec& process : host.processes) {
     std::vector<std::string> words{program};

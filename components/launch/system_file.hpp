@@ -67,6 +67,7 @@ struct SystemFile {
 struct CommandLine {
   std::string name;
   std::vector<std::string> words;
+  double pause = 0.0;  ///< at least so long between a crash and the next start [s]
 };
 
 /// What runs on `host`, with `program` for the path of swiftlet.
