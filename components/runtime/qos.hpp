@@ -20,7 +20,7 @@ struct QosProfile {
   bool reliable;         ///< lost samples are sent again
   bool transient_local;  ///< who comes later gets the last samples too
   int depth;             ///< samples kept for a reader that is busy; 0: not known
-  bool large;            ///< samples above 64 kB: sent to other hosts by a thread of its own
+  bool large;            ///< samples above 64 kB: where somebody waits, sent by a thread of its own
 
   // What a writer offers and a reader asks for. By default as ROS 2 does: nothing is asked for, so
   // that every writer will do.

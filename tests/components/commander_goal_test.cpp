@@ -41,7 +41,7 @@ struct GoalBench : Bench {
   std::shared_ptr<Publisher<PoseStamped>> sender;
   std::shared_ptr<Publisher<swiftlet_msgs::msg::ModeCommand>> mode;
 
-  GoalBench() : Bench("commander") {
+  GoalBench() : Bench("commander", "settling_to_arm: 0") {
     const auto position = std::make_shared<Eigen::Vector3d>(0, 0, 0);
     probe.subscribe(topic::setpoint, [position](const swiftlet_msgs::msg::Setpoint& setpoint) {
       *position = from_msg(setpoint.position());

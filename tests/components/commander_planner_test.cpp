@@ -38,7 +38,9 @@ struct CommanderBench : Bench {
   std::shared_ptr<Publisher<swiftlet_msgs::msg::Mission>> mission;
 
   CommanderBench()
-      : Bench("commander"), acks(record(topic::mode_ack)), status(record(topic::vehicle_status)) {
+      : Bench("commander", "settling_to_arm: 0"),
+        acks(record(topic::mode_ack)),
+        status(record(topic::vehicle_status)) {
     send_odometry({0, 0, 0});
     every(topic::range_down, 50ms, Time{}, [](Time) {
       sensor_msgs::msg::Range range;

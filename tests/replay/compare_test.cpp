@@ -109,8 +109,8 @@ TEST_F(Compare, AChangedGainIsReportedAtItsFirstEffect) {
 }
 
 TEST_F(Compare, AKilledComponentSaysNothingAnyMoreAndOthersNoticeAtOnce) {
-  const double kill = 6.0;
-  const Outcome outcome = compare({"--what-if", "kill estimator@6"});
+  const double kill = 13.0;  // in the air
+  const Outcome outcome = compare({"--what-if", "kill estimator@13"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.first_time(), AllOf(Ge(kill), Le(kill + 0.03)));
   EXPECT_NEAR(outcome.result["different_by_topic"]["odometry"].get<double>(),
@@ -151,7 +151,7 @@ TEST_F(Compare, WhatCannotBeReplayedIsSaid) {
 TEST_F(Compare, AFlightInWhichSomethingGoesWrongIsFlownAgainBitForBit) {
   const auto fly = [&](const std::string& name) {
     const std::string file = path(name);
-    const test::Finished flown = run({"fly", test::hop(), "--what-if", "kill planner@6",
+    const test::Finished flown = run({"fly", test::hop(), "--what-if", "kill planner@13",
                                       "--what-if", "drop scan 30%", "--record", file});
     EXPECT_EQ(flown.exit_code, 1);
     EXPECT_THAT(flown.out + flown.err, HasSubstr("planner fell silent"));

@@ -127,9 +127,11 @@ dds::DataWriterQos writer_qos(const EndpointSpec& spec, const EndpointPlace& pla
   apply_profile(spec, place, qos);
   qos.ownership_strength().value = static_cast<std::uint32_t>(spec.qos.strength);
   if (is_plain(spec)) qos.resource_limits().extra_samples = kSpareFrames;
-  // A slow link must not hold up who writes a large sample: a thread of its own waits for it. On
-  // one machine that thread would only add its delay, which is as much again as all others.
-  const bool asynchronous = spec.qos.large && place.leaves_machine && !place.shared;
+  // Neither a slow link nor a reliable reader that does not keep up must hold up who writes a large
+  // sample: a thread of its own waits for them. For frames on one machine, where nobody waits, that
+  // thread would only add its delay, which is as much again as all others.
+  const bool somebody_waits = place.leaves_machine || (spec.qos.reliable && !place.isolated);
+  const bool asynchronous = spec.qos.large && somebody_waits && !place.shared;
   qos.publish_mode().kind =
       asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t(0, 100'000'000);
