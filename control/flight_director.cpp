@@ -127,6 +127,10 @@ Situation FlightDirector::situation(Time now) const {
     situation.on_ground = sonar_near_ground() || !range_down_;  // without it, not ready is said
   }
   situation.reference_finished = now >= flying_.simple.end();
+  if (age(now, motors_heard_) > kMotorsTimeout) {
+    situation.motors_problem =
+        guidance_problem_.empty() ? "no motor commands were heard" : guidance_problem_;
+  }
   situation.navigation = flying_.navigation;
   situation.navigation_problem = flying_.navigation_problem;
   return situation;

@@ -270,6 +270,8 @@ std::string ModeMachine::reason(Event event, const Situation& situation) const {
       return because("estimate lost", situation.estimate_problem);
     case Event::kReferenceFinished:
       return fmt::format("{:.2f} m reached", situation.height);
+    case Event::kTakeoffFailed:
+      return because(to_string(event), situation.motors_problem);
     case Event::kNavigationFailed:
       return situation.navigation_problem.empty() ? to_string(event) : situation.navigation_problem;
     default:

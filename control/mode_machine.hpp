@@ -52,6 +52,7 @@ struct Situation {
   bool on_ground = true;
   double height = 0.0;              ///< above the take-off point [m]
   bool reference_finished = false;  ///< the vertical move of Takeoff has ended
+  std::string motors_problem;       ///< why it may have failed; "" where that is not known
   Navigation navigation = Navigation::kInactive;
   std::string navigation_problem;  ///< why it failed
 };

@@ -83,6 +83,10 @@ std::string Attendance::absence(const std::string& component, Time now) const {
 }
 
 std::string Attendance::failure(const std::string& component, Time now) const {
+  return failure_of(component, false, now);
+}
+
+std::string Attendance::failure_of(const std::string& component, bool only_silent, Time now) const {
   const auto found = components_.find(component);
   const Instance* active = found == components_.end() ? nullptr : leader(found->second, now);
   if (active == nullptr) return "";
@@ -97,7 +101,7 @@ std::string Attendance::failure(const std::string& component, Time now) const {
     return fmt::format("the {} fell silent {:.2f} s ago", component, age);
   }
   const bool is_blocked =
-      active->blocked_since && to_seconds(now - *active->blocked_since) > kBlocked;
+      !only_silent && active->blocked_since && to_seconds(now - *active->blocked_since) > kBlocked;
   if (is_blocked && !active->status.problems().empty()) {
     return fmt::format("the {} cannot work: {}", component, active->status.problems().front());
   }

@@ -29,8 +29,21 @@ class Attendance {
   /// silent, or blocked for a while. An instance that stands by has the time to take over, also one
   /// of whoever should write what blocks it.
   std::string failure(const std::string& component, Time now) const;
+  /// The same of several: who is silent before who is blocked, since one explains the other.
+  template <class Names>
+  std::string failure_of_any(const Names& components, Time now) const {
+    for (const bool only_silent : {true, false}) {
+      for (const char* component : components) {
+        std::string failure = failure_of(component, only_silent, now);
+        if (!failure.empty()) return failure;
+      }
+    }
+    return "";
+  }
 
  private:
+  std::string failure_of(const std::string& component, bool only_silent, Time now) const;
+
   struct Instance {
     swiftlet_msgs::msg::ComponentStatus status;  // with the problems that were reported last
     Time heard{};

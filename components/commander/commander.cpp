@@ -200,11 +200,7 @@ class Commander : public Component {
 
   void check_others(Time now) {
     if (ticks_ % kStatusEvery == 0) director_.set_system_problem(system_problem(now));
-    std::string problem;
-    for (const char* guide : kGuides) {
-      if (problem.empty()) problem = attendance_.failure(guide, now);
-    }
-    director_.set_guidance_problem(problem);
+    director_.set_guidance_problem(attendance_.failure_of_any(kGuides, now));
   }
 
   std::string system_problem(Time now) const {

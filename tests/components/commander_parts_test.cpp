@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "components/commander/attendance.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/runtime/message.hpp"
@@ -94,6 +96,20 @@ TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {
   heard(Time(10910ms), true);
   EXPECT_EQ(attendance.failure("planner", Time(10910ms)),
             "the planner cannot work: odometry: silent for 0.20 s");
+}
+
+TEST(Attendance, WhoIsSilentIsNamedBeforeWhoIsBlockedByIt) {
+  Attendance attendance;
+  attendance.heard_status(status("lidar_mapper", "a", true, 1), Time(10s));
+  for (Time now(10s); now <= Time(12s); now += 100ms) {
+    attendance.heard_status(status("planner", "b", true, 1, "map: silent for 1.34 s", true), now);
+  }
+  const std::array guides{"planner", "lidar_mapper"};
+  EXPECT_THAT(attendance.failure("planner", Time(12s)), testing::HasSubstr("cannot work: map"));
+  EXPECT_EQ(attendance.failure_of_any(guides, Time(12s)),
+            "the lidar_mapper fell silent 2.00 s ago");
+  attendance.heard_status(status("lidar_mapper", "a", true, 1), Time(12s));
+  EXPECT_THAT(attendance.failure_of_any(guides, Time(12s)), testing::HasSubstr("cannot work: map"));
 }
 
 TEST(Attendance, WhoWasStartedAgainCountsWhateverTheDeadOneWas) {

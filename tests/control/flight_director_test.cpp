@@ -140,6 +140,21 @@ TEST(FlightDirectorTakeoff, ClimbsSmoothlyFromWhereTheVehicleStands) {
   EXPECT_NEAR(flight.status().height, 1.5, 1e-9);
 }
 
+TEST(FlightDirectorTakeoff, WhereNobodyDrivesTheMotorsTheReasonSaysSo) {
+  DirectorFlight flight;
+  flight.can_climb = false;
+  flight.expect_steps = true;
+  flight.fly_for(0.1);
+  ASSERT_TRUE(flight.director.request(Request::arm(), flight.now).ok());
+  ASSERT_TRUE(flight.director.request(Request::takeoff(1.2), flight.now).ok());
+  flight.flight_controller = false;
+  flight.director.set_guidance_problem("the flight_controller fell silent 1.00 s ago");
+  ASSERT_TRUE(flight.fly_until(Mode::kLand, 10.0));
+  ASSERT_FALSE(flight.transitions.empty());
+  EXPECT_THAT(flight.transitions.front(),
+              AllOf(HasSubstr("still on the ground"), HasSubstr("flight_controller fell silent")));
+}
+
 TEST(FlightDirectorTakeoff, AVehicleThatDoesNotLiftIsDisarmedSoon) {
   DirectorFlight flight;
   flight.can_climb = false;
