@@ -150,6 +150,22 @@ TEST_F(Launch, ACrashedComponentServesAgainWithinTwoSecondsAndTheOthersGoOn) {
   EXPECT_FALSE(alive(sim));
 }
 
+TEST_F(Launch, ADiscoveryServerIsStartedAgainOnlyAfterItsClientsMissIt) {
+  Process launch =
+      start({"launch", write("system.yaml",
+                             fmt::format("hosts:\n  here:\n    components: [commander]\n"
+                                         "    discovery_server: {{address: 127.0.0.1, port: {}}}\n",
+                                         11811 + domain()))});
+  ASSERT_TRUE(becomes_true(kStartLimit, [&] { return id_of(launch, "discovery_server") != 0; }))
+      << launch.err();
+  kill(id_of(launch, "discovery_server"), SIGKILL);
+  EXPECT_TRUE(becomes_true(kStartLimit, [&] {
+    return says(launch,
+                "discovery_server: was ended by signal 9 (Killed); starting it again in 21.0 s");
+  })) << launch.err();
+  expect_end(launch, SIGINT, 0);
+}
+
 // `gcs disarm` fails after a second and a half where there is no vehicle: a crash that comes back.
 const char* const kCrashing = R"(restart: {max_restarts: 2, backoff: 0}
 hosts:
