@@ -112,7 +112,7 @@ class Component {
   void subscribe(const Topic<T>& topic, Callback callback, Need need = Need::kPeriodic) {
     add_subscription(std::make_unique<Subscription<T, Callback>>(
                          *mailbox_, InputWatch(topic.name, topic.period), std::move(callback)),
-                     {topic.name, message_type<T>(), topic.qos, need});
+                     {topic.name, message_type<T>(), requested_qos(topic.qos, topic.period), need});
   }
 
   /// The same for bytes, of types that need not be known: topic and type as on the wire. The

@@ -113,6 +113,15 @@ TEST(EndpointQos, AProfileSurvivesTheWayToDdsAndBack) {
   }
 }
 
+TEST(EndpointQos, ReadersOfFastPeriodicTopicsWaitForNoLostSample) {
+  EXPECT_FALSE(requested_qos(qos::command, 10ms).reliable);
+  EXPECT_FALSE(requested_qos(qos::state, 4ms).reliable);
+  EXPECT_TRUE(requested_qos(qos::state, 100ms).reliable);
+  EXPECT_TRUE(requested_qos(qos::command, 0ms).reliable) << "what is said once must arrive";
+  EXPECT_FALSE(requested_qos(qos::sensor, 100ms).reliable);
+  EXPECT_EQ(qos_conflict(qos::command, requested_qos(qos::command, 10ms)), "");
+}
+
 TEST(EndpointQos, SlowPeriodicTopicsOfferADeadlineAndNobodyAsksForOne) {
   const auto offered = [](Duration period, bool isolated) {
     const QosProfile qos = offered_qos(qos::sensor, period);
