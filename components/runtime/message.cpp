@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <type_traits>
+#include <utility>
 
 #include "all_messages.hpp"
 #include "components/runtime/plain_types.hpp"
@@ -17,6 +19,36 @@ namespace {
 using CdrStream = eprosima::fastcdr::Cdr;
 
 constexpr std::size_t kEncapsulation = 4;
+
+/// Bytes of the long list of numbers that a frame, a cloud or a map has as its `data`. They follow
+/// one another without padding.
+template <class T, class = void>
+struct Bulk {
+  static std::size_t size(const T&) { return 0; }
+};
+
+template <class T>
+using DataElement = typename std::decay_t<decltype(std::declval<const T&>().data())>::value_type;
+
+template <class T>
+struct Bulk<T, std::enable_if_t<std::is_arithmetic_v<DataElement<T>>>> {
+  static std::size_t size(const T& message) {
+    return message.data().size() * sizeof(DataElement<T>);
+  }
+};
+
+/// CDR skips the bytes of padding, and the same message is to have the same bytes always. Of `size`
+/// bytes `bulk` belong to one list, wherever it stands: padding is as near as the rest to one end
+/// or to the other.
+void zero_padding(std::uint8_t* buffer, std::size_t size, std::size_t bulk) {
+  const std::size_t rest = size - bulk;
+  if (2 * rest >= size) {
+    std::fill_n(buffer, size, std::uint8_t{0});
+  } else {
+    std::fill_n(buffer, rest, std::uint8_t{0});
+    std::fill_n(buffer + bulk, rest, std::uint8_t{0});
+  }
+}
 
 template <class T>
 class GeneratedType : public MessageType {
@@ -29,10 +61,11 @@ class GeneratedType : public MessageType {
 
   std::size_t serialize(const void* message, std::uint8_t* buffer,
                         std::size_t capacity) const override {
+    const std::size_t size = serialized_size(message);
+    if (size > capacity) return 0;
     try {
-      // Alignment is relative to the end of the encapsulation, so that padding must be defined.
-      std::fill_n(buffer, capacity, std::uint8_t{0});
-      eprosima::fastcdr::FastBuffer bytes(reinterpret_cast<char*>(buffer), capacity);
+      zero_padding(buffer, size, Bulk<T>::size(*static_cast<const T*>(message)));
+      eprosima::fastcdr::FastBuffer bytes(reinterpret_cast<char*>(buffer), size);
       CdrStream cdr(bytes, CdrStream::LITTLE_ENDIANNESS, CdrStream::DDS_CDR);
       cdr.serialize_encapsulation();
       static_cast<const T*>(message)->serialize(cdr);

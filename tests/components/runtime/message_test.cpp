@@ -8,6 +8,7 @@
 #include <set>
 
 #include "all_messages.hpp"
+#include "tests/components/runtime/reflection/random_message.hpp"
 
 namespace swiftlet {
 namespace {
@@ -51,15 +52,59 @@ TEST(Message, RoundTripKeepsEveryField) {
   EXPECT_TRUE(*back == scan);
 }
 
-TEST(Message, TheSameMessageAlwaysHasTheSameBytes) {
-  // Padding between a boolean and a double must not be what happened to be in memory.
-  swiftlet_msgs::msg::MotorCommand command;
-  command.armed(true);
-  const Cdr first = to_cdr(command);
-  for (int i = 0; i < 100; ++i) {
-    const Cdr noise(first.size(), static_cast<std::uint8_t>(i));
-    EXPECT_EQ(to_cdr(command), first);
+/// The message's bytes when what was in memory before is `noise`.
+template <class T>
+Cdr serialized_over(std::uint8_t noise, const T& message) {
+  const MessageType& type = message_type<T>();
+  Cdr cdr(type.serialized_size(&message), noise);
+  EXPECT_EQ(type.serialize(&message, cdr.data(), cdr.size()), cdr.size());
+  return cdr;
+}
+
+template <class T>
+void expect_same_bytes_always(const T& message) {
+  EXPECT_EQ(serialized_over(0xFF, message), serialized_over(0x00, message))
+      << message_type<T>().name();
+}
+
+TEST(Message, PaddingIsNotWhatHappenedToBeInMemory) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+#define SWIFTLET_MESSAGE(package, Name) \
+  expect_same_bytes_always(test::random_message<package::msg::Name>(seed));
+#include "all_messages.inc"
+#undef SWIFTLET_MESSAGE
   }
+}
+
+TEST(Message, NorIsItAroundLongData) {
+  for (std::size_t length = 0; length < 9; ++length) {
+    const std::string text(length, 'x');
+    for (const std::size_t bytes : {0U, 30U, 300U, 301U, 302U, 303U, 304U, 100'000U}) {
+      const std::vector<std::uint8_t> data(bytes, 7);
+      sensor_msgs::msg::Image image;
+      image.header().frame_id(text);
+      image.encoding(text);
+      image.data(data);
+      expect_same_bytes_always(image);
+      sensor_msgs::msg::PointCloud2 cloud;
+      cloud.header().frame_id(text);
+      cloud.data(data);
+      expect_same_bytes_always(cloud);
+      nav_msgs::msg::OccupancyGrid map;
+      map.header().frame_id(text);
+      map.data().resize(bytes);
+      expect_same_bytes_always(map);
+    }
+  }
+}
+
+TEST(Message, ABufferThatIsTooSmallIsLeftAlone) {
+  std_msgs::msg::Header header;
+  header.frame_id("map");
+  const MessageType& type = message_type<std_msgs::msg::Header>();
+  Cdr bytes(type.serialized_size(&header), 0xFF);
+  EXPECT_EQ(type.serialize(&header, bytes.data(), bytes.size() - 1), 0U);
+  EXPECT_EQ(bytes, Cdr(bytes.size(), 0xFF));
 }
 
 TEST(Message, BrokenBytesAreRefusedNotTrusted) {
