@@ -4,6 +4,7 @@
 
 #include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
+#include "components/planner/limits_config.hpp"
 #include "components/planner/trajectory_message.hpp"
 #include "components/runtime/supervision/staleness.hpp"
 #include "components/topics.hpp"
@@ -53,8 +54,7 @@ Replanner::Params read_params(const Config& config) {
   config.read("unknown_weight", cost.unknown_weight, kNotNegative);
   config.read("unknown_is_free", cost.unknown_is_free);
   config.read("samples", params.trajectory.path.samples, {10, 100000});
-  config.read("max_speed", params.trajectory.limits.max_speed, kPositive);
-  config.read("max_acceleration", params.trajectory.limits.max_acceleration, kPositive);
+  read_limits(config, params.trajectory.minimum_snap.limits);
   config.read("improvement", params.improvement, {0.0, 1.0});
   int seed = static_cast<int>(params.seed);
   config.read("seed", seed, {0, 2e9});

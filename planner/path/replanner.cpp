@@ -68,7 +68,7 @@ Replanner::Situation Replanner::assess(const Input& input) const {
     s.start.yaw = yaw_of(input.vehicle.q_WB);
     s.speed = input.vehicle.v_WB_W.norm();
     // A hover that trembles is a start at rest.
-    const auto& limits = params_.trajectory.limits;
+    const auto& limits = params_.trajectory.minimum_snap.limits;
     if (s.speed > 0.1 * limits.max_speed) {
       s.start.velocity = input.vehicle.v_WB_W * std::min(1.0, 0.95 * limits.max_speed / s.speed);
     }
@@ -103,7 +103,7 @@ ReplanDecision Replanner::answer_failure(const Input& input, const Situation& si
   if (!failing_since_) failing_since_ = input.now;
   const bool given_up = input.now - *failing_since_ >= params_.give_up_after;
   const double braking_s =
-      situation.speed / params_.trajectory.limits.max_acceleration + params_.brake_reserve_s;
+      situation.speed / params_.trajectory.minimum_snap.limits.max_acceleration + params_.brake_reserve_s;
   const bool near = situation.under_way && decision.blocked &&
                     to_seconds(*situation.conflict - input.now) <= braking_s;
   // From rest there may be a way where none is in flight.

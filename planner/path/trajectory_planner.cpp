@@ -178,7 +178,7 @@ double trajectory_cost(const Trajectory& trajectory, Time from, const ClearanceM
 
 TrajectoryPlanner::TrajectoryPlanner() : TrajectoryPlanner(Params{}) {}
 TrajectoryPlanner::TrajectoryPlanner(const Params& params)
-    : params_(params), path_planner_(params.path), minimum_snap_(params.limits) {}
+    : params_(params), path_planner_(params.path), minimum_snap_(params.minimum_snap) {}
 
 TrajectoryResult TrajectoryPlanner::plan(const OccupancyGrid& grid, Time start_time,
                                          const FlatReference& start, const FlightGoal& goal,

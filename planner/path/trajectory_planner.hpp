@@ -7,7 +7,7 @@
 #include <string>
 
 #include "planner/path/path_planner.hpp"
-#include "planner/trajectory/minimum_snap.hpp"
+#include "planner/trajectory/minimum_snap_planner.hpp"
 
 namespace swiftlet {
 
@@ -40,7 +40,7 @@ class TrajectoryPlanner {
  public:
   struct Params {
     PathPlanner::Params path;
-    MinimumSnapPlanner::Params limits;
+    MinimumSnapPlanner::Params minimum_snap;
     YawPolicy yaw = YawPolicy::kHold;
     int max_insertions = 8;  ///< rounds of added waypoints
     double waypoint_tolerance =

@@ -17,8 +17,8 @@ using Matrix8d = Eigen::Matrix<double, 8, 8>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 /// Position to jerk of the four axes (one column each) at a knot.
 using Knot = Eigen::Matrix4d;
-/// Velocity, acceleration and jerk of the four axes.
-using FreeKnot = Eigen::Matrix<double, 3, 4>;
+/// Which of velocity, acceleration and jerk are free at a knot: 1 where they are, 0 where not.
+using Free = Eigen::Vector3d;
 
 /// Coefficients of degree 7 from position, velocity, acceleration and jerk at s = 0 and s = 1.
 Matrix8d coefficients_from_ends() {
@@ -57,7 +57,9 @@ Status check(const FlatReference& start, const std::vector<Waypoint>& waypoints)
   if (!finite) return Error{"the start of the trajectory is not finite"};
   if (waypoints.empty()) return Error{"a trajectory needs a waypoint to fly to"};
   for (const Waypoint& waypoint : waypoints) {
-    finite = finite && waypoint.position.allFinite() && std::isfinite(waypoint.yaw);
+    finite = finite && waypoint.position.allFinite() && std::isfinite(waypoint.yaw) &&
+             waypoint.velocity.value_or(Eigen::Vector3d::Zero()).allFinite() &&
+             waypoint.acceleration.value_or(Eigen::Vector3d::Zero()).allFinite();
   }
   if (!finite) return Error{"a waypoint is not finite"};
   return {};
@@ -70,6 +72,71 @@ Knot knot_of(const FlatReference& start) {
   knot.row(2) << start.acceleration.transpose(), start.yaw_acceleration;
   knot.row(3) << start.jerk.transpose(), 0.0;
   return knot;
+}
+
+/// Writes what the waypoints prescribe into the knots, in units of `mean` seconds, and says whether
+/// an inner one prescribes anything. What the last leaves open stays zero.
+bool prescribe(const std::vector<Waypoint>& waypoints, double mean, std::vector<Knot>& knots,
+               std::vector<Free>& free) {
+  bool inner = false;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const auto set = [&](int order, const std::optional<Eigen::Vector3d>& value) {
+      if (!value) return;
+      knots[i + 1].row(order).head<3>() = std::pow(mean, order) * value->transpose();
+      free[i + 1][order - 1] = 0.0;
+      inner = inner || i + 1 < waypoints.size();
+    };
+    set(1, waypoints[i].velocity);
+    set(2, waypoints[i].acceleration);
+  }
+  return inner;
+}
+
+/// Finds the free derivatives of the inner knots, for `Axes` axes from `first` on: stationary in
+/// them, block-tridiagonal, from the first knot to the last and back. Knots hold what is given, and
+/// zeros where the derivatives are free.
+template <int first, int Axes>
+bool minimize(const std::vector<Matrix8d>& cost, const std::vector<Free>& free,
+              std::vector<Knot>& knots) {
+  using Derivatives = Eigen::Matrix<double, 3, Axes>;
+  const std::size_t n = cost.size();
+  // diagonal[k] x[k] = right[k] - upper x[k + 1], with x the free ones and zeros for the others.
+  std::vector<Eigen::LLT<Eigen::Matrix3d>> diagonal(n);
+  std::vector<Derivatives> right(n);
+  const auto given = [&](std::size_t k) { return knots[k].template block<3, Axes>(1, first); };
+  const auto position = [&](std::size_t k) { return knots[k].template block<1, Axes>(0, first); };
+  const auto mask = [&](std::size_t row, const Eigen::Matrix3d& block, std::size_t column) {
+    return Eigen::Matrix3d(free[row].asDiagonal() * block * free[column].asDiagonal());
+  };
+  for (std::size_t k = 1; k < n; ++k) {
+    const Matrix8d& in = cost[k - 1];
+    const Matrix8d& out = cost[k];
+    const Eigen::Matrix3d whole = in.block<3, 3>(5, 5) + out.block<3, 3>(1, 1);
+    const Eigen::Matrix3d lower = in.block<3, 3>(5, 1), upper = out.block<3, 3>(1, 5);
+    Derivatives r = -(in.block<3, 1>(5, 0) * position(k - 1) +
+                      (in.block<3, 1>(5, 4) + out.block<3, 1>(1, 0)) * position(k) +
+                      out.block<3, 1>(1, 4) * position(k + 1));
+    r -= lower * given(k - 1) + whole * given(k) + upper * given(k + 1);
+    r = free[k].asDiagonal() * r;
+    Eigen::Matrix3d D = mask(k, whole, k);
+    D.diagonal() += Eigen::Vector3d::Ones() - free[k];
+    if (k > 1) {
+      const Eigen::Matrix3d below = mask(k, lower, k - 1);
+      D -= below * diagonal[k - 1].solve(below.transpose());
+      r -= below * diagonal[k - 1].solve(right[k - 1]);
+    }
+    diagonal[k].compute(D);
+    right[k] = r;
+    if (diagonal[k].info() != Eigen::Success) return false;
+  }
+  Derivatives next = Derivatives::Zero();
+  for (std::size_t k = n - 1; k >= 1; --k) {
+    Derivatives r = right[k];
+    if (k + 1 < n) r -= mask(k, cost[k].block<3, 3>(1, 5), k + 1) * next;
+    next = diagonal[k].solve(r);
+    knots[k].template block<3, Axes>(1, first) += next;
+  }
+  return true;
 }
 
 }  // namespace
@@ -108,34 +175,15 @@ Result<Trajectory> minimum_snap(Time start_time, const FlatReference& start,
     cost[i] = powers.asDiagonal() * Q * powers.asDiagonal() / std::pow(T, 7);
   }
 
-  // Stationary in the free derivatives of the inner knots: block-tridiagonal, from the first knot
-  // to the last and back. diagonal[k] x[k] = right[k] - upper x[k + 1].
-  std::vector<Eigen::LLT<Eigen::Matrix3d>> diagonal(n);
-  std::vector<FreeKnot> right(n);
-  for (std::size_t k = 1; k < n; ++k) {
-    const Matrix8d& in = cost[k - 1];
-    const Matrix8d& out = cost[k];
-    Eigen::Matrix3d D = in.block<3, 3>(5, 5) + out.block<3, 3>(1, 1);
-    FreeKnot r = -(in.block<3, 1>(5, 0) * knots[k - 1].row(0) +
-                   (in.block<3, 1>(5, 4) + out.block<3, 1>(1, 0)) * knots[k].row(0) +
-                   out.block<3, 1>(1, 4) * knots[k + 1].row(0));
-    if (k == 1) {
-      r -= in.block<3, 3>(5, 1) * knots[0].bottomRows<3>();
-    } else {
-      const Eigen::Matrix3d lower = in.block<3, 3>(5, 1);
-      D -= lower * diagonal[k - 1].solve(lower.transpose());
-      r -= lower * diagonal[k - 1].solve(right[k - 1]);
-    }
-    diagonal[k].compute(D);
-    right[k] = r;
-    if (diagonal[k].info() != Eigen::Success) {
-      return Error{"the durations of neighbouring pieces differ too much for a solution"};
-    }
-  }
-  for (std::size_t k = n - 1; k >= 1; --k) {
-    FreeKnot r = right[k];
-    if (k + 1 < n) r -= cost[k].block<3, 3>(1, 5) * knots[k + 1].bottomRows<3>();
-    knots[k].bottomRows<3>() = diagonal[k].solve(r);
+  // Yaw is prescribed nowhere, so that it goes with the position only where that is not either.
+  std::vector<Free> free(n + 1, Free::Ones());
+  const bool constrained = prescribe(waypoints, mean, knots, free);
+  const bool solved =
+      constrained ? minimize<kX, 3>(cost, free, knots) &&
+                        minimize<kYaw, 1>(cost, std::vector<Free>(n + 1, Free::Ones()), knots)
+                  : minimize<kX, 4>(cost, free, knots);
+  if (!solved) {
+    return Error{"the durations of neighbouring pieces differ too much for a solution"};
   }
 
   std::vector<TrajectorySegment> segments(n);
@@ -152,6 +200,22 @@ Result<Trajectory> minimum_snap(Time start_time, const FlatReference& start,
   Trajectory trajectory(start_time, std::move(segments));
   if (trajectory.empty()) return Error{"the trajectory through the waypoints is not finite"};
   return trajectory;
+}
+
+double snap_cost(const Trajectory& trajectory, double yaw_weight) {
+  double total = 0.0;
+  for (const TrajectorySegment& segment : trajectory.segments()) {
+    for (int axis = kX; axis <= kYaw; ++axis) {
+      const Polynomial snap =
+          differentiate(segment.coefficients[static_cast<std::size_t>(axis)], 4);
+      double integral = 0.0;
+      for (int i = 0; i + 4 < kCoefficients; ++i) {
+        for (int j = 0; j + 4 < kCoefficients; ++j) integral += snap[i] * snap[j] / (i + j + 1);
+      }
+      total += (axis == kYaw ? yaw_weight : 1.0) * integral / std::pow(segment.duration_s, 7);
+    }
+  }
+  return total;
 }
 
 }  // namespace swiftlet

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
+#include "planner/trajectory/minimum_snap_planner.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,20 +10,10 @@
 #include <numeric>
 #include <utility>
 
-#include "estimation/geometry/so3.hpp"
-#include "planner/trajectory/minimum_snap.hpp"
+#include "planner/trajectory/durations.hpp"
 
 namespace swiftlet {
 namespace {
-
-/// Time to cover a distance from one speed to another, within limits of speed and acceleration.
-double trapezoid_s(double distance, double v0, double v1, double v_max, double a_max) {
-  const double peak =
-      std::min(v_max, std::sqrt(std::max(0.0, a_max * distance + 0.5 * (v0 * v0 + v1 * v1))));
-  const double ramps = std::max(0.0, 2 * peak * peak - v0 * v0 - v1 * v1) / (2 * a_max);
-  const double cruise = std::max(0.0, distance - ramps) / std::max(peak, 1e-6);
-  return std::max(0.0, 2 * peak - v0 - v1) / a_max + cruise;
-}
 
 constexpr int kRoundsForReserve = 10;
 constexpr double kBalance = 0.5;  // less than 1, since pieces pull at their neighbours
@@ -35,6 +27,8 @@ constexpr double kBrakingTimes[] = {2.1, 3.0, 4.5};
 constexpr double kRest = 1e-6;
 // Rounds of stretching before levelling is tried.
 constexpr int kRoundsInMotion = 15;
+// Rounds of finding shares of least snap and the duration that they need.
+constexpr int kLeastSnapRounds = 2;
 
 /// Velocity, acceleration and jerk of x, y, z and yaw.
 using Motion = Eigen::Matrix<double, 3, 4>;
@@ -77,67 +71,85 @@ std::vector<TrajectorySegment> first_pieces(const FlatReference& start,
   }
   for (const double keep : kBraking) {
     for (const double times : kBrakingTimes) {
-      const double change = (1 - keep) * start.velocity.norm() + 0.3 * params.max_speed;
-      const double T = times * change / params.max_acceleration;
+      const double change = (1 - keep) * start.velocity.norm() + 0.3 * params.limits.max_speed;
+      const double T = times * change / params.limits.max_acceleration;
       pieces.push_back(level_out(start, keep * motion.row(0), T));
     }
   }
   return pieces;
 }
 
-/// By how much every piece would have to be longer to keep its speed and its acceleration.
-std::vector<double> loads(const Trajectory& trajectory, double v_max, double a_max) {
+/// By how much every piece would have to be longer to keep the limits.
+std::vector<double> loads(const Trajectory& trajectory, const TrajectoryLimits& limits) {
   std::vector<double> load;
   for (const TrajectorySegment& segment : trajectory.segments()) {
-    load.push_back(std::max({max_derivative_norm(segment, 1) / v_max,
-                             std::sqrt(max_derivative_norm(segment, 2) / a_max), 1e-3}));
+    load.push_back(needed_stretch(segment, limits));
   }
   return load;
 }
 
+double largest(const std::vector<double>& load) {
+  return *std::max_element(load.begin(), load.end());
+}
+
+double sum(const std::vector<double>& durations) {
+  return std::accumulate(durations.begin(), durations.end(), 0.0);
+}
+
+void stretch(std::vector<double>& durations, double factor) {
+  for (double& duration : durations) duration *= factor;
+}
+
 /// The share of the limits to aim at: what the reserve leaves, or what the start has already.
 double target_share(const FlatReference& start, const MinimumSnapPlanner::Params& params) {
-  const double started = std::max(start.velocity.norm() / params.max_speed,
-                                  start.acceleration.norm() / params.max_acceleration);
+  const double started = usage(extrema(start), params.limits);
   return std::min(1.0, std::max(1.0 - std::clamp(params.reserve, 0.0, 0.9), 1.02 * started));
 }
 
-/// First guess of the durations: a speed profile that is slow where the path turns and that can be
-/// braked for, ahead of every turn.
-std::vector<double> allocate(const FlatReference& start, const std::vector<Waypoint>& waypoints,
-                             double v_max, double a_limit,
-                             const MinimumSnapPlanner::Params& params) {
-  const std::size_t n = waypoints.size();
-  // Smooth ramps peak at about twice the acceleration of straight ones.
-  const double a_max = 0.5 * a_limit;
-  std::vector<Eigen::Vector3d> points{start.position};
-  for (const Waypoint& waypoint : waypoints) points.push_back(waypoint.position);
-  std::vector<double> speed(n + 1, 0.0), distance(n);
-  for (std::size_t i = 0; i < n; ++i) distance[i] = (points[i + 1] - points[i]).norm();
-  speed[0] = std::min(start.velocity.norm(), v_max);
-  for (std::size_t i = 1; i < n; ++i) {
-    // What the turn allows: a circle that touches both legs as far out as the shorter one reaches.
-    const Eigen::Vector3d in = points[i] - points[i - 1], out = points[i + 1] - points[i];
-    const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
-    const double radius =
-        0.5 * std::min(distance[i - 1], distance[i]) / std::max(std::tan(0.5 * turn), 1e-6);
-    speed[i] = std::clamp(std::sqrt(a_max * radius), 0.1 * v_max, v_max);
+SpeedProfile speed_profile(const TrajectoryLimits& limits,
+                           const MinimumSnapPlanner::Params& params) {
+  return {limits.max_speed, limits.max_acceleration,
+          std::min(params.nominal_yaw_rate, limits.max_yaw_rate), params.min_duration_s};
+}
+
+/// Moves time to the pieces that are nearer to a limit than others, in a few rounds.
+Result<std::vector<double>> balanced(const FlatReference& start,
+                                     const std::vector<Waypoint>& waypoints,
+                                     std::vector<double> durations, const TrajectoryLimits& limits,
+                                     int rounds) {
+  std::vector<double> best = durations;
+  double best_total = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    const Result<Trajectory> trajectory = minimum_snap(Time{}, start, waypoints, durations);
+    if (!trajectory) return trajectory.error();
+    const std::vector<double> load = loads(*trajectory, limits);
+    const double worst = largest(load);
+    const double total = worst * sum(durations);
+    if (total < best_total) {
+      best_total = total;
+      best = durations;
+      stretch(best, worst);
+    }
+    for (std::size_t i = 0; i < durations.size(); ++i) {
+      durations[i] *= std::pow(std::clamp(load[i] / worst, 0.3, 1.0), kBalance);
+    }
   }
-  for (std::size_t i = 1; i <= n; ++i) {
-    speed[i] =
-        std::min(speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + 2 * a_max * distance[i - 1]));
-  }
-  for (std::size_t i = n; i > 1; --i) {
-    speed[i - 1] =
-        std::min(speed[i - 1], std::sqrt(speed[i] * speed[i] + 2 * a_max * distance[i - 1]));
-  }
-  std::vector<double> durations(n);
-  double yaw = start.yaw;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double turn = std::abs(wrap_angle(waypoints[i].yaw - yaw));
-    yaw = waypoints[i].yaw;
-    durations[i] = std::max({params.min_duration_s, 1.5 * turn / params.max_yaw_rate,
-                             trapezoid_s(distance[i], speed[i], speed[i + 1], v_max, a_max)});
+  return best;
+}
+
+/// Moves time to where it lowers the cost most, and stretches all of it to about what the limits
+/// need. How long that is changes the shares of a trajectory that does not begin and end at rest.
+Result<std::vector<double>> of_least_snap(const FlatReference& start,
+                                          const std::vector<Waypoint>& waypoints,
+                                          std::vector<double> durations,
+                                          const TrajectoryLimits& limits) {
+  for (int round = 0; round < kLeastSnapRounds; ++round) {
+    const auto shares = least_snap_durations(start, waypoints, sum(durations));
+    if (!shares) return shares;
+    durations = *shares;
+    const Result<Trajectory> trajectory = minimum_snap(Time{}, start, waypoints, durations);
+    if (!trajectory) return trajectory.error();
+    stretch(durations, largest(loads(*trajectory, limits)));
   }
   return durations;
 }
@@ -147,42 +159,55 @@ Result<Trajectory> fit(Time start_time, const FlatReference& start,
                        const std::vector<Waypoint>& waypoints, int max_iterations,
                        const MinimumSnapPlanner::Params& params) {
   const double share = target_share(start, params);
-  const double v_max = share * params.max_speed, a_max = share * params.max_acceleration;
-  std::vector<double> durations = allocate(start, waypoints, v_max, a_max, params);
-  // Shares of the time first: pieces that are nearer to a limit than others get more of it.
-  std::vector<double> best = durations;
-  double best_total = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < params.balance_rounds; ++round) {
-    const Result<Trajectory> trajectory = minimum_snap(start_time, start, waypoints, durations);
-    if (!trajectory) return trajectory;
-    const std::vector<double> load = loads(*trajectory, v_max, a_max);
-    const double worst = *std::max_element(load.begin(), load.end());
-    const double total = worst * std::accumulate(durations.begin(), durations.end(), 0.0);
-    if (total < best_total) {
-      best_total = total;
-      best = durations;
-      for (double& duration : best) duration *= worst;
-    }
-    for (std::size_t i = 0; i < durations.size(); ++i) {
-      durations[i] *= std::pow(std::clamp(load[i] / worst, 0.3, 1.0), kBalance);
-    }
-  }
-  // Then all of it together. From rest the first round is the last: speed goes with 1 / time.
-  durations = best;
+  const TrajectoryLimits aim = share_of(params.limits, share);
+  std::vector<double> durations = trapezoid_durations(start, waypoints, speed_profile(aim, params));
+  // Shares of the time first.
+  const auto shared = params.timing == Timing::kLeastSnap
+                          ? of_least_snap(start, waypoints, durations, aim)
+                          : balanced(start, waypoints, durations, aim, params.balance_rounds);
+  if (!shared) return shared.error();
+  durations = *shared;
+  // Then all of it together. From rest the first round is the last where speed and acceleration
+  // are all that is limited: speed goes with 1 / time.
   double worst = 0.0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Result<Trajectory> trajectory = minimum_snap(start_time, start, waypoints, durations);
     if (!trajectory) return trajectory;
     // The reserve may be used up where stretching does not win it back.
-    const double slack = iteration < kRoundsForReserve ? 1.0 : 1.0 / share;
-    const std::vector<double> load = loads(*trajectory, slack * v_max, slack * a_max);
-    worst = *std::max_element(load.begin(), load.end());
+    worst = largest(loads(*trajectory, iteration < kRoundsForReserve ? aim : params.limits));
     if (worst <= 1.0) return trajectory;
-    for (double& duration : durations) duration *= std::clamp(worst + 1e-5, 1.0, 1.2);
+    stretch(durations, std::clamp(worst + 1e-5, 1.0, 1.2));
   }
   return Error{
       fmt::format("after {} rounds of stretching the trajectory is still {:.3g} times too fast",
                   max_iterations, worst)};
+}
+
+/// Whether what is given can be flown at all.
+Status check(const FlatReference& start, const std::vector<Waypoint>& waypoints,
+             const MinimumSnapPlanner::Params& params) {
+  if (const Status sound = check(params.limits); !sound) return sound;
+  if (!(params.nominal_yaw_rate > 0.0 && params.min_duration_s > 0.0)) {
+    return Error{"the yaw rate and the least duration of the trajectory must be positive"};
+  }
+  // Solving once checks all that is given.
+  const std::vector<double> some(waypoints.size(), 1.0);
+  if (const auto solved = minimum_snap(Time{}, start, waypoints, some); !solved) {
+    return solved.error();
+  }
+  // What the start has already cannot be planned away, nor what a waypoint prescribes.
+  if (const Status kept = within(extrema(start), params.limits); !kept) {
+    return Error{fmt::format("at the start {}", kept.error().reason)};
+  }
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    FlatReference prescribed;
+    prescribed.velocity = waypoints[i].velocity.value_or(Eigen::Vector3d::Zero());
+    prescribed.acceleration = waypoints[i].acceleration.value_or(Eigen::Vector3d::Zero());
+    if (const Status kept = within(extrema(prescribed), params.limits); !kept) {
+      return Error{fmt::format("at waypoint {} {}", i + 1, kept.error().reason)};
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -192,32 +217,14 @@ MinimumSnapPlanner::MinimumSnapPlanner(const Params& params) : params_(params) {
 
 Result<Trajectory> MinimumSnapPlanner::plan(Time start_time, const FlatReference& start,
                                             const std::vector<Waypoint>& waypoints) const {
-  if (!(params_.max_speed > 0.0 && params_.max_acceleration > 0.0 && params_.max_yaw_rate > 0.0 &&
-        params_.min_duration_s > 0.0)) {
-    return Error{"the limits of the trajectory must be positive"};
-  }
-  // What the start has already cannot be planned away.
-  if (start.velocity.norm() > params_.max_speed ||
-      start.acceleration.norm() > params_.max_acceleration) {
-    return Error{fmt::format(
-        "the start has {:.3g} m/s and {:.3g} m/s^2, above the limits of {:.3g} and {:.3g}",
-        start.velocity.norm(), start.acceleration.norm(), params_.max_speed,
-        params_.max_acceleration)};
-  }
-  // Solving once checks all that is given.
-  const std::vector<double> some(waypoints.size(), 1.0);
-  if (const auto check = minimum_snap(start_time, start, waypoints, some); !check) return check;
-
+  if (const Status usable = check(start, waypoints, params_); !usable) return usable.error();
   const bool at_rest = start.velocity.norm() < kRest && start.acceleration.norm() < kRest &&
                        start.jerk.norm() < kRest;
   const int rounds = at_rest ? params_.max_iterations : kRoundsInMotion;
   Result<Trajectory> result = fit(start_time, start, waypoints, rounds, params_);
   if (result || at_rest) return result;
   for (const TrajectorySegment& first : first_pieces(start, params_)) {
-    if (max_derivative_norm(first, 1) > params_.max_speed ||
-        max_derivative_norm(first, 2) > params_.max_acceleration) {
-      continue;
-    }
+    if (!within(first, params_.limits)) continue;
     FlatReference level;
     for (int axis = kX; axis <= kZ; ++axis) {
       level.position[axis] = derivative(first, axis, 1.0, 0);
@@ -232,6 +239,27 @@ Result<Trajectory> MinimumSnapPlanner::plan(Time start_time, const FlatReference
     return Trajectory(start_time, std::move(segments));
   }
   return result;
+}
+
+Result<Trajectory> MinimumSnapPlanner::plan_for(Time start_time, const FlatReference& start,
+                                                const std::vector<Waypoint>& waypoints,
+                                                double duration_s) const {
+  if (const Status usable = check(start, waypoints, params_); !usable) return usable.error();
+  if (!(duration_s > 0.0)) return Error{"the duration of the trajectory must be positive"};
+  const auto durations = least_snap_durations(start, waypoints, duration_s);
+  if (!durations) return durations.error();
+  Result<Trajectory> trajectory = minimum_snap(start_time, start, waypoints, *durations);
+  if (!trajectory) return trajectory;
+  const Status kept = within(extrema(*trajectory), params_.limits);
+  if (kept) return trajectory;
+  Params longer = params_;
+  longer.timing = Timing::kLeastSnap;
+  longer.reserve = 0.0;
+  const auto possible = MinimumSnapPlanner(longer).plan(start_time, start, waypoints);
+  return Error{fmt::format(
+      "in {:.4g} s {}; {}", duration_s, kept.error().reason,
+      possible ? fmt::format("it would have to take {:.4g} s", to_seconds(possible->duration()))
+               : "no other duration helps: " + possible.error().reason)};
 }
 
 }  // namespace swiftlet

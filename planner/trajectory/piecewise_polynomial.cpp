@@ -4,85 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+
+#include "planner/trajectory/bernstein.hpp"
 
 namespace swiftlet {
 namespace {
-
-/// Degree of the squared norm of a derivative.
-constexpr int kSquareSize = 2 * kCoefficients - 1;
-using SquarePolynomial = Eigen::Matrix<double, kSquareSize, 1>;
-
-/// Relative width at which the search for a maximum ends, and its bound on work.
-constexpr double kTolerance = 1e-6;
-constexpr int kMaxSubdivisions = 2000;
-
-/// Coefficients of the `order`-th derivative in s.
-Polynomial differentiate(Polynomial c, int order) {
-  for (int k = 0; k < order; ++k) {
-    for (int i = 0; i + 1 < kCoefficients; ++i) c[i] = (i + 1) * c[i + 1];
-    c[kCoefficients - 1] = 0.0;
-  }
-  return c;
-}
-
-double horner(const Polynomial& c, double s) {
-  double value = 0.0;
-  for (int i = kCoefficients - 1; i >= 0; --i) value = value * s + c[i];
-  return value;
-}
-
-/// Power basis on [0, 1] to Bernstein basis: b_j = sum_i C(j, i) / C(n, i) a_i.
-SquarePolynomial to_bernstein(const SquarePolynomial& a) {
-  constexpr int n = kSquareSize - 1;
-  SquarePolynomial b;
-  for (int j = 0; j <= n; ++j) {
-    double ratio = 1.0, sum = 0.0;  // C(j, i) / C(n, i)
-    for (int i = 0; i <= j; ++i) {
-      sum += ratio * a[i];
-      ratio *= static_cast<double>(j - i) / (n - i);
-    }
-    b[j] = sum;
-  }
-  return b;
-}
-
-/// A piece of the interval, with the polynomial in its Bernstein form: its largest coefficient is
-/// above every value on the piece, its first and last are values that are taken.
-struct Piece {
-  SquarePolynomial b;
-  double above;
-  explicit Piece(const SquarePolynomial& bernstein) : b(bernstein), above(b.maxCoeff()) {}
-  double taken() const { return std::max(b[0], b[kSquareSize - 1]); }
-  bool operator<(const Piece& other) const { return above < other.above; }
-};
-
-/// De Casteljau's subdivision in the middle.
-std::pair<Piece, Piece> halves(const Piece& piece) {
-  SquarePolynomial left, right = piece.b;
-  for (int k = 0; k < kSquareSize; ++k) {
-    left[k] = right[0];
-    for (int i = 0; i + 1 < kSquareSize - k; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
-  }
-  return {Piece(left), Piece(right)};
-}
-
-/// Least upper bound of the polynomial on [0, 1] that branch and bound gives within the tolerance.
-double upper_bound(const SquarePolynomial& power) {
-  std::priority_queue<Piece> pieces;
-  pieces.emplace(to_bernstein(power));
-  double taken = pieces.top().taken();
-  for (int k = 0; k < kMaxSubdivisions; ++k) {
-    const Piece top = pieces.top();
-    if (top.above <= taken + kTolerance * std::abs(taken) + 1e-18) break;
-    pieces.pop();
-    const auto [left, right] = halves(top);
-    taken = std::max({taken, left.taken(), right.taken()});
-    pieces.push(left);
-    pieces.push(right);
-  }
-  return std::max(taken, pieces.top().above);
-}
 
 bool is_sound(const TrajectorySegment& segment) {
   // An hour for a piece is more than any battery gives; it keeps sums of durations in range.
@@ -145,10 +71,7 @@ FlatReference Trajectory::evaluate(Time time) const {
 double max_derivative_norm(const TrajectorySegment& segment, int order) {
   SquarePolynomial square = SquarePolynomial::Zero();
   for (std::size_t axis = kX; axis <= kZ; ++axis) {
-    const Polynomial c = differentiate(segment.coefficients[axis], order);
-    for (int i = 0; i < kCoefficients; ++i) {
-      for (int j = 0; j < kCoefficients; ++j) square[i + j] += c[i] * c[j];
-    }
+    add_square(differentiate(segment.coefficients[axis], order), square);
   }
   return std::sqrt(std::max(0.0, upper_bound(square))) / std::pow(segment.duration_s, order);
 }

@@ -8,13 +8,16 @@
 
 #include "estimation/basics/time.hpp"
 #include "estimation/geometry/rigid_body.hpp"
+#include "planner/trajectory/bernstein.hpp"
 
 namespace swiftlet {
 
 /// A polynomial of degree at most 9 in the normalised time s in [0, 1] of its segment:
 /// p(s) = c[0] + c[1] s + ... + c[9] s^9.
 inline constexpr int kCoefficients = 10;
-using Polynomial = Eigen::Matrix<double, kCoefficients, 1>;
+using Polynomial = Coefficients<kCoefficients>;
+/// The square of such a polynomial, or the squared norm of a vector of them.
+using SquarePolynomial = Coefficients<2 * kCoefficients - 1>;
 
 /// Axes of a segment's coefficients.
 enum Axis : int { kX = 0, kY = 1, kZ = 2, kYaw = 3 };
