@@ -13,5 +13,6 @@ namespace swiftlet {
 
 void add_fly(CLI::App& app);
 void add_run(CLI::App& app);
+void add_trajectory(CLI::App& app);
 
 }  // namespace swiftlet
