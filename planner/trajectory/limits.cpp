@@ -17,6 +17,10 @@ namespace {
 /// piece that falls freely is infinite, which says little about how long it should be.
 constexpr double kLeastStretch = 1e-3;
 constexpr double kMostStretch = 10.0;
+/// Moments of a piece at which the stretch for its thrust is looked for, and what is near enough to
+/// go by the bound alone.
+constexpr int kMoments = 16;
+constexpr double kNear = 1.05;
 
 /// |a + g e3|^2 over the segment.
 SquarePolynomial squared_thrust(const TrajectorySegment& segment) {
@@ -89,6 +93,29 @@ bool keeps(const TrajectoryExtrema& e, const TrajectoryLimits& limits) {
          e.max_thrust_per_mass <= limits.max_thrust_per_mass &&
          e.min_thrust_per_mass >= limits.min_thrust_per_mass &&
          e.max_body_rate <= limits.max_body_rate && e.max_yaw_rate <= limits.max_yaw_rate;
+}
+
+/// By how much a piece would have to last longer for its thrust, by the moments that are looked at:
+/// the largest root y of |g e3 + a / y|^2 = limit^2, where y is the square of the stretch.
+double thrust_stretch(const TrajectorySegment& segment, const TrajectoryLimits& limits) {
+  const double most = limits.max_thrust_per_mass * limits.max_thrust_per_mass;
+  const double least = limits.min_thrust_per_mass * limits.min_thrust_per_mass;
+  constexpr double kHover = kGravity * kGravity;
+  double y = 0.0;
+  for (int i = 0; i <= kMoments; ++i) {
+    const double s = static_cast<double>(i) / kMoments;
+    const Eigen::Vector3d a(derivative(segment, kX, s, 2), derivative(segment, kY, s, 2),
+                            derivative(segment, kZ, s, 2));
+    const double up = kGravity * a.z(), square = a.squaredNorm();
+    if (std::isfinite(most)) {
+      y = std::max(y, (up + std::sqrt(up * up + (most - kHover) * square)) / (most - kHover));
+    }
+    const double below = up * up - (kHover - least) * square;
+    if (least > 0.0 && up < 0.0 && below > 0.0) {
+      y = std::max(y, (-up + std::sqrt(below)) / (kHover - least));
+    }
+  }
+  return std::sqrt(y);
 }
 
 }  // namespace
@@ -182,9 +209,11 @@ double needed_stretch(const TrajectorySegment& segment, const TrajectoryLimits& 
   const Usage u = usages(found, limits);
   // Velocities go with 1 / time, acceleration and the thrust for it with the square, and the part
   // of the body rate that turns the thrust with the cube.
-  const double stretch = std::max(
-      {u.speed, std::sqrt(u.acceleration), std::sqrt(std::max(0.0, u.max_thrust)),
-       std::sqrt(std::max(0.0, u.min_thrust)), std::cbrt(u.body_rate), u.yaw_rate, kLeastStretch});
+  double thrust = std::sqrt(std::max({0.0, u.max_thrust, u.min_thrust}));
+  // That is right near the limit, and too much far above it: a hover needs thrust, too.
+  if (thrust > kNear || (thrust > 0.0 && thrust < 1.0)) thrust = thrust_stretch(segment, limits);
+  const double stretch = std::max({u.speed, std::sqrt(u.acceleration), thrust,
+                                   std::cbrt(u.body_rate), u.yaw_rate, kLeastStretch});
   // Quotients are rounded.
   return keeps(found, limits) ? std::min(stretch, 1.0)
                               : std::clamp(stretch, 1.0 + std::numeric_limits<double>::epsilon(),

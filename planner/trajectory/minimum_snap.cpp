@@ -113,9 +113,9 @@ bool minimize(const std::vector<Matrix8d>& cost, const std::vector<Free>& free,
     const Matrix8d& out = cost[k];
     const Eigen::Matrix3d whole = in.block<3, 3>(5, 5) + out.block<3, 3>(1, 1);
     const Eigen::Matrix3d lower = in.block<3, 3>(5, 1), upper = out.block<3, 3>(1, 5);
-    Derivatives r = -(in.block<3, 1>(5, 0) * position(k - 1) +
-                      (in.block<3, 1>(5, 4) + out.block<3, 1>(1, 0)) * position(k) +
-                      out.block<3, 1>(1, 4) * position(k + 1));
+    // Only ways count, not where they are.
+    Derivatives r = -(in.block<3, 1>(5, 4) * (position(k) - position(k - 1)) +
+                      out.block<3, 1>(1, 4) * (position(k + 1) - position(k)));
     r -= lower * given(k - 1) + whole * given(k) + upper * given(k + 1);
     r = free[k].asDiagonal() * r;
     Eigen::Matrix3d D = mask(k, whole, k);
@@ -192,7 +192,11 @@ Result<Trajectory> minimum_snap(Time start_time, const FlatReference& start,
     Eigen::Matrix<double, 8, 4> ends;
     const Eigen::Vector4d scale = time_powers(durations_s[i] / mean);
     ends << scale.asDiagonal() * knots[i], scale.asDiagonal() * knots[i + 1];
-    const Eigen::Matrix<double, 8, 4> c = A * ends;
+    // From the place where it begins, so that rounding goes with the way.
+    ends.row(4) -= ends.row(0);
+    ends.row(0).setZero();
+    Eigen::Matrix<double, 8, 4> c = A * ends;
+    c.row(0) = knots[i].row(0);
     for (int axis = 0; axis < 4; ++axis) {
       segments[i].coefficients[static_cast<std::size_t>(axis)].head<8>() = c.col(axis);
     }

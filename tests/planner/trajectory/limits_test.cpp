@@ -112,10 +112,11 @@ TEST(Limits, AreKeptExactlyWhereNoStretchIsNeeded) {
       TrajectoryLimits limits;
       limits.max_speed = factor(random) * most.max_speed;
       limits.max_acceleration = factor(random) * most.max_acceleration;
+      // A piece may well stay above or below the thrust of a hover.
       limits.max_thrust_per_mass =
-          kGravity + factor(random) * (most.max_thrust_per_mass - kGravity);
+          kGravity + factor(random) * std::max(0.1, most.max_thrust_per_mass - kGravity);
       limits.min_thrust_per_mass =
-          kGravity - factor(random) * (kGravity - most.min_thrust_per_mass);
+          kGravity - factor(random) * std::max(0.1, kGravity - most.min_thrust_per_mass);
       limits.max_body_rate = factor(random) * most.max_body_rate;
       limits.max_yaw_rate = factor(random) * most.max_yaw_rate;
       const bool within_all =

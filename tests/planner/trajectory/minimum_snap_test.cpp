@@ -169,7 +169,7 @@ TEST(MinimumSnap, PassesWaypointsAsTheyPrescribe) {
   EXPECT_LT(at(3, 1.0, 2).norm() + at(3, 1.0, 3).norm(), 1e-9);
   // Free derivatives are continuous, and what goes with a prescribed one is where it bends.
   for (std::size_t knot = 0; knot < 3; ++knot) {
-    const int bends = knot == 0 ? 6 : knot == 1 ? 5 : 0;
+    const int bends = knot == 0 ? 6 : knot == 1 ? 5 : -1;
     for (int order = 0; order <= 6; ++order) {
       const Eigen::Vector3d before = at(knot, 1.0, order), after = at(knot + 1, 0.0, order);
       const double jump = (before - after).norm() / (1.0 + before.norm());
