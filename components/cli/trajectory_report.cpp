@@ -72,14 +72,14 @@ std::vector<double> each(const std::vector<Sample>& samples, Value value) {
   return values;
 }
 
-/// The limits with a finite value, as lines across a panel.
-std::vector<plot::Level> levels_of(std::initializer_list<double> limits) {
-  std::vector<plot::Level> levels;
-  for (const double limit : limits) {
-    if (!std::isfinite(limit)) continue;
-    levels.push_back({limit, levels.empty() ? "limit" : ""});
-  }
-  return levels;
+/// A limit stands in the title of its panel. It is a line, too, where it does not dwarf the curve,
+/// which goes from `rest` to `extreme`.
+void show_limit(plot::Panel& panel, double limit, double rest, double extreme, const char* side) {
+  constexpr double kNear = 3.0;
+  if (!std::isfinite(limit) || limit <= 0.0) return;
+  panel.title += fmt::format(", {} {:.4g}", side, limit);
+  if (std::abs(limit - rest) > kNear * std::abs(extreme - rest)) return;
+  panel.levels.push_back({limit, panel.levels.empty() ? "limit" : ""});
 }
 
 plot::Panel way_from_above(const TrajectoryReport& report, const std::vector<Sample>& samples) {
@@ -110,6 +110,7 @@ plot::Figure figure_of(const TrajectoryReport& report) {
   const auto samples = samples_of(report.trajectory, std::min(kSampleRate, 4000.0 / duration));
   const std::vector<double> t = each(samples, [](const Sample& s) { return s.t; });
   const TrajectoryLimits& limits = report.task.limits;
+  const TrajectoryExtrema most = extrema(report.trajectory);
   std::vector<plot::Mark> waypoints;
   for (const TrajectorySegment& segment : report.trajectory.segments()) {
     const double at = segment.duration_s + (waypoints.empty() ? 0.0 : waypoints.back().at);
@@ -140,17 +141,16 @@ plot::Figure figure_of(const TrajectoryReport& report) {
   }
   plot::Panel& speed = over_time("Speed", "[m/s]");
   speed.add("speed", t, each(samples, [](const Sample& s) { return s.reference.velocity.norm(); }));
-  speed.levels = levels_of({limits.max_speed});
+  show_limit(speed, limits.max_speed, 0.0, most.max_speed, "at most");
   plot::Panel& acceleration = over_time("Acceleration", "[m/s²]");
   acceleration.add("acceleration", t,
                    each(samples, [](const Sample& s) { return s.reference.acceleration.norm(); }));
-  acceleration.levels = levels_of({limits.max_acceleration});
+  show_limit(acceleration, limits.max_acceleration, 0.0, most.max_acceleration, "at most");
   plot::Panel& thrust = over_time("Thrust per mass", "[m/s²]");
   thrust.add("thrust per mass", t,
              each(samples, [](const Sample& s) { return s.thrust_per_mass; }));
-  thrust.levels = limits.min_thrust_per_mass > 0.0
-                      ? levels_of({limits.max_thrust_per_mass, limits.min_thrust_per_mass})
-                      : levels_of({limits.max_thrust_per_mass});
+  show_limit(thrust, limits.max_thrust_per_mass, kGravity, most.max_thrust_per_mass, "at most");
+  show_limit(thrust, limits.min_thrust_per_mass, kGravity, most.min_thrust_per_mass, "at least");
   plot::Panel& rate = over_time("Body rate", "[rad/s]");
   rate.add("body rate", t,
            each(samples, [](const Sample& s) { return s.angular_velocity.norm(); }));
@@ -160,7 +160,7 @@ plot::Figure figure_of(const TrajectoryReport& report) {
              each(samples, [&](const Sample& s) { return s.angular_velocity[axis]; }),
              {"", plot::Dash::kDashed, plot::Marker::kNone, 1.4});
   }
-  rate.levels = levels_of({limits.max_body_rate});
+  show_limit(rate, limits.max_body_rate, 0.0, most.max_body_rate, "at most");
   return figure;
 }
 

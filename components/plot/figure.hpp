@@ -57,7 +57,7 @@ struct Span {
   std::string color = kPale;
 };
 
-/// A vertical line at a place on the x axis, with a word at its upper end.
+/// A vertical line at a place on the x axis, with a word at its lower end.
 struct Mark {
   double at = 0.0;
   std::string label = {};

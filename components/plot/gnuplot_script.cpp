@@ -34,12 +34,16 @@ struct Layout {
   }
 };
 
-/// Text in gnuplot's single quotes, in which nothing but the quote has a meaning.
+/// Text in gnuplot's single quotes, in which nothing but the quote has a meaning. That becomes the
+/// one of print.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c == '\'') {
+      result += "’";
+    } else {
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
   }
   return result + "'";
 }
@@ -144,9 +148,9 @@ std::string key_of(const Panel& panel, const Box& box, const Layout& layout) {
       place = "inside bottom left vertical opaque";
       break;
     case Legend::kBelow:
-      place = fmt::format("at screen {:.6f}, screen {:.6f} bottom center horizontal noopaque",
-                          0.5 * (box.left + box.right) / layout.width,
-                          1.0 - box.legend / layout.height);
+      place = fmt::format(
+          "at screen {:.6f}, screen {:.6f} bottom center horizontal maxrows 1 noopaque",
+          0.5 * (box.left + box.right) / layout.width, 1.0 - box.legend / layout.height);
       break;
   }
   return fmt::format("set key {} Left reverse samplen 2 spacing 1.05 font ',9'\n", place);
@@ -252,12 +256,12 @@ std::string panel_script(const Figure& figure, const Layout& layout, std::size_t
         number(mark.at));
     if (mark.label.empty()) continue;
     script += fmt::format(
-        "set label {} at {}, graph 0.95 left offset 0.4,0 font ',9' textcolor rgb '#777777'\n",
+        "set label {} at {}, graph 0.06 left offset 0.4,0 font ',9' textcolor rgb '#777777'\n",
         quoted(mark.label), number(mark.at));
   }
   for (const Note& note : panel.notes) {
     if (!std::isfinite(note.x) || !std::isfinite(note.y)) continue;
-    script += fmt::format("set label {} at {},{} offset 0.8,0.6 font ',10' front\n",
+    script += fmt::format("set label {} at {},{} offset 0.9,0.7 font ',10' front boxed\n",
                           quoted(note.text), number(note.x), number(note.y));
   }
   return script + curves_of(panel, index);
@@ -272,7 +276,8 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& fi
       "set output {}\nset encoding utf8\nset multiplot {}\n"
       "set border 3 linecolor rgb '#555555'\n"
       "set tics nomirror out scale 0.6 textcolor rgb '#333333'\n"
-      "set grid linecolor rgb '#cccccc' linewidth 0.8 dashtype solid\nset samples 2\n",
+      "set grid linecolor rgb '#cccccc' linewidth 0.8 dashtype solid\nset samples 2\n"
+      "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.4,0.3\n",
       layout.width, layout.height, quoted(file.string()),
       figure.title.empty() ? "" : "title " + quoted(figure.title) + " font ',14'");
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {

@@ -17,10 +17,12 @@ namespace {
 /// piece that falls freely is infinite, which says little about how long it should be.
 constexpr double kLeastStretch = 1e-3;
 constexpr double kMostStretch = 10.0;
-/// Moments of a piece at which the stretch for its thrust is looked for, and what is near enough to
-/// go by the bound alone.
+/// Moments of a piece at which the stretch for its thrust is looked for; what is near enough to go
+/// by the bound alone; and the share of what that says which is needed at least, if the moments
+/// have missed the one that counts.
 constexpr int kMoments = 16;
 constexpr double kNear = 1.05;
+constexpr double kSurelyNeeded = 0.25;
 
 /// |a + g e3|^2 over the segment.
 SquarePolynomial squared_thrust(const TrajectorySegment& segment) {
@@ -97,7 +99,7 @@ bool keeps(const TrajectoryExtrema& e, const TrajectoryLimits& limits) {
 
 /// By how much a piece would have to last longer for its thrust, by the moments that are looked at:
 /// the largest root y of |g e3 + a / y|^2 = limit^2, where y is the square of the stretch.
-double thrust_stretch(const TrajectorySegment& segment, const TrajectoryLimits& limits) {
+double thrust_stretch_of_moments(const TrajectorySegment& segment, const TrajectoryLimits& limits) {
   const double most = limits.max_thrust_per_mass * limits.max_thrust_per_mass;
   const double least = limits.min_thrust_per_mass * limits.min_thrust_per_mass;
   constexpr double kHover = kGravity * kGravity;
@@ -116,6 +118,17 @@ double thrust_stretch(const TrajectorySegment& segment, const TrajectoryLimits& 
     }
   }
   return std::sqrt(y);
+}
+
+/// The same, and more than 1 wherever a limit is broken.
+double thrust_stretch(const TrajectorySegment& segment, const Usage& usage,
+                      const TrajectoryLimits& limits) {
+  // That is right near the limit, and too much far above it: a hover needs thrust, too.
+  const double enough = std::sqrt(std::max({0.0, usage.max_thrust, usage.min_thrust}));
+  if (enough == 0.0 || (enough >= 1.0 && enough <= kNear)) return enough;
+  const double seen = thrust_stretch_of_moments(segment, limits);
+  if (enough < 1.0) return seen;
+  return std::clamp(seen, 1.0 + kSurelyNeeded * (enough - 1.0), enough);
 }
 
 }  // namespace
@@ -209,11 +222,9 @@ double needed_stretch(const TrajectorySegment& segment, const TrajectoryLimits& 
   const Usage u = usages(found, limits);
   // Velocities go with 1 / time, acceleration and the thrust for it with the square, and the part
   // of the body rate that turns the thrust with the cube.
-  double thrust = std::sqrt(std::max({0.0, u.max_thrust, u.min_thrust}));
-  // That is right near the limit, and too much far above it: a hover needs thrust, too.
-  if (thrust > kNear || (thrust > 0.0 && thrust < 1.0)) thrust = thrust_stretch(segment, limits);
-  const double stretch = std::max({u.speed, std::sqrt(u.acceleration), thrust,
-                                   std::cbrt(u.body_rate), u.yaw_rate, kLeastStretch});
+  const double stretch =
+      std::max({u.speed, std::sqrt(u.acceleration), thrust_stretch(segment, u, limits),
+                std::cbrt(u.body_rate), u.yaw_rate, kLeastStretch});
   // Quotients are rounded.
   return keeps(found, limits) ? std::min(stretch, 1.0)
                               : std::clamp(stretch, 1.0 + std::numeric_limits<double>::epsilon(),

@@ -54,7 +54,8 @@ Status within(const TrajectoryExtrema& extrema, const TrajectoryLimits& limits);
 Status within(const TrajectorySegment& segment, const TrajectoryLimits& limits);
 
 /// By how much the segment would have to last longer to keep the limits, about; at most 1 exactly
-/// where it keeps them. Exact for speed, acceleration and yaw rate of a path that stays the same.
+/// where it keeps them. Right for speed, acceleration, yaw rate and (nearly) thrust on a path that
+/// stays the same; the body rate may ask several times.
 double needed_stretch(const TrajectorySegment& segment, const TrajectoryLimits& limits);
 
 }  // namespace swiftlet
