@@ -73,6 +73,8 @@ std::pair<Matrix, Matrix> bernstein_halves(const Matrix& bernstein) {
 /// Relative width at which a search for a maximum ends, and its bound on work.
 inline constexpr double kMaximumTolerance = 1e-6;
 inline constexpr int kMaxSubdivisions = 2000;
+/// After so many, what has no bound yet has none.
+inline constexpr int kHopefulSubdivisions = 100;
 
 /// Upper bound of a function on an interval by branch and bound, at most kMaximumTolerance above a
 /// value that is taken unless kMaxSubdivisions do not suffice. A Piece knows two numbers about a
@@ -87,6 +89,7 @@ double least_upper_bound(const Piece& whole) {
   for (int k = 0; k < kMaxSubdivisions; ++k) {
     const Piece top = pieces.top();
     if (top.above <= taken + kMaximumTolerance * std::abs(taken) + 1e-18) break;
+    if (k >= kHopefulSubdivisions && !std::isfinite(top.above)) break;
     pieces.pop();
     const auto [left, right] = top.halves();
     taken = std::max({taken, left.taken, right.taken});
