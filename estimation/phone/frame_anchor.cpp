@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "estimation/phone/frame_anchor.hpp"
+
+#include <cmath>
+
+#include "estimation/geometry/so3.hpp"
+
+namespace swiftlet {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// From axes whose y is up to axes whose z is.
+const Quaterniond kLevel(std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0);
+
+}  // namespace
+
+/// T_PB, in axes whose z is up.
+FrameAnchor::Pose FrameAnchor::body_in_phone(const Pose& camera) const {
+  const Quaterniond q_up = params_.y_is_up ? kLevel : Quaterniond::Identity();
+  Pose body;
+  body.attitude = (q_up * camera.attitude * params_.camera.attitude.conjugate()).normalized();
+  body.position = q_up * camera.position - body.attitude * params_.camera.position;
+  return body;
+}
+
+void FrameAnchor::fix(const Pose& camera, const Vector3d& p_WB, double yaw) {
+  const Pose body = body_in_phone(camera);
+  T_WP_.attitude = from_yaw(wrap_angle(yaw - yaw_of(body.attitude)));
+  T_WP_.position = p_WB - T_WP_.attitude * body.position;
+  is_fixed_ = true;
+}
+
+FrameAnchor::Pose FrameAnchor::body_in_map(const Pose& camera) const {
+  const Pose body = body_in_phone(camera);
+  return {T_WP_.position + T_WP_.attitude * body.position,
+          (T_WP_.attitude * body.attitude).normalized()};
+}
+
+FrameAnchor::Covariance FrameAnchor::body_covariance(const Pose& camera,
+                                                     const Covariance& covariance) const {
+  const Quaterniond q_up = params_.y_is_up ? kLevel : Quaterniond::Identity();
+  const Eigen::Matrix3d R_WP = (T_WP_.attitude * q_up).toRotationMatrix();
+  const Pose body = body_in_map(camera);
+  // p_WB = p_WC + lever, and an attitude error d moves it by d x lever.
+  const Vector3d lever = -(body.attitude * params_.camera.position);
+  Covariance J = Covariance::Zero();
+  J.topLeftCorner<3, 3>() = R_WP;
+  J.topRightCorner<3, 3>() = -hat(lever) * R_WP;
+  J.bottomRightCorner<3, 3>() = R_WP;
+  const Covariance result = J * covariance * J.transpose();
+  return 0.5 * (result + result.transpose());
+}
+
+}  // namespace swiftlet
