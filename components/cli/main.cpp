@@ -9,6 +9,7 @@
 #include "components/cli/verbs.hpp"
 #include "components/introspection/introspection_commands.hpp"
 #include "components/launch/launch_command.hpp"
+#include "components/phone_sim/phone_sim_command.hpp"
 #include "components/replay/replay_command.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
+  swiftlet::add_phone_sim(app);
   swiftlet::add_topic_commands(app);
   swiftlet::add_component_commands(app);
   swiftlet::add_param_commands(app);

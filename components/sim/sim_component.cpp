@@ -29,6 +29,9 @@ Scenario scenario_of(const Config& parameters) {
   int seed = static_cast<int>(scenario.seed);
   parameters.read("seed", seed, kNotNegative);
   scenario.seed = static_cast<std::uint64_t>(seed);
+  bool phone = true;
+  parameters.read("phone", phone);
+  if (!phone) scenario.sensors.phone.rate_hz = 0.0;
   return scenario;
 }
 
@@ -40,7 +43,8 @@ class SimComponent : public Component {
     imu_[0] = advertise(topic::imu0);
     imu_[1] = advertise(topic::imu1);
     imu_[2] = advertise(topic::imu2);
-    phone_ = advertise(topic::phone_pose);
+    // Without a simulated phone the topic is that of a real one, through phone_link.
+    if (simulation_.scenario().sensors.phone.rate_hz > 0.0) phone_ = advertise(topic::phone_pose);
     scan_ = advertise(topic::scan);
     range_ = advertise(topic::range_down);
     battery_ = advertise(topic::battery);

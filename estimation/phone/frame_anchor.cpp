@@ -27,10 +27,24 @@ FrameAnchor::Pose FrameAnchor::body_in_phone(const Pose& camera) const {
 }
 
 void FrameAnchor::fix(const Pose& camera, const Vector3d& p_WB, double yaw) {
-  const Pose body = body_in_phone(camera);
-  T_WP_.attitude = from_yaw(wrap_angle(yaw - yaw_of(body.attitude)));
-  T_WP_.position = p_WB - T_WP_.attitude * body.position;
+  fixed_position_ = p_WB;
+  fixed_yaw_ = yaw;
+  poses_ = 0;
+  sum_of_positions_.setZero();
+  sum_of_headings_.setZero();
   is_fixed_ = true;
+  refine(camera);
+}
+
+void FrameAnchor::refine(const Pose& camera) {
+  const Pose body = body_in_phone(camera);
+  const double heading = yaw_of(body.attitude);
+  ++poses_;
+  sum_of_positions_ += body.position;
+  sum_of_headings_ += Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  const double mean_heading = std::atan2(sum_of_headings_.y(), sum_of_headings_.x());
+  T_WP_.attitude = from_yaw(wrap_angle(fixed_yaw_ - mean_heading));
+  T_WP_.position = fixed_position_ - T_WP_.attitude * (sum_of_positions_ / poses_);
 }
 
 FrameAnchor::Pose FrameAnchor::body_in_map(const Pose& camera) const {

@@ -54,6 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"SeedNegative", {"fly", hop(), "--seed", "-1"}, {"--seed", "-1"}},
         BadInput{"SeedThatIsText", {"fly", hop(), "--seed", "abc"}, {"--seed", "abc"}},
         BadInput{"SeedTooLarge", {"fly", hop(), "--seed", "99999999999"}, {"--seed"}},
+        BadInput{"PhoneAddress", {"phone-sim", "--to", "nowhere"}, {"--to", "IPv4"}},
+        BadInput{"PhoneJump", {"phone-sim", "--jump", "1", "2"}, {"--jump"}},
         BadInput{"Domain", {"run", "planner", "--domain", "233"}, {"--domain", "0 to 232"}},
         BadInput{"Vehicle", {"run", "planner", "--vehicle", "u v"}, {"--vehicle", "letters"}},
         // Accepted, it would reach nobody and not say so.

@@ -71,6 +71,22 @@ TEST_F(FrameAnchorTest, TiltIsMeasuredAndNotAnchored) {
   EXPECT_NEAR(yaw_of(body.attitude), 0.7, 1e-12);
 }
 
+TEST_F(FrameAnchorTest, MorePosesMakeItMoreExact) {
+  FrameAnchor::Params params;
+  params.start_position = {1.0, 2.0, 0.1};
+  params.start_yaw = 3.0;  // near where angles wrap
+  const Pose truth{{4.0, 5.0, 6.0}, from_yaw(-3.0)};
+  const auto noisy = [&] {
+    return Pose{truth.position + vector(0.05), truth.attitude * from_yaw(vector(0.2).x())};
+  };
+  FrameAnchor anchor(params);
+  anchor.fix(noisy());
+  for (int i = 1; i < 1000; ++i) anchor.refine(noisy());
+  const Pose body = anchor.body_in_map(truth);
+  EXPECT_LT((body.position - params.start_position).norm(), 0.01);  // 0.05 m / sqrt(1000), times 6
+  EXPECT_LT(std::abs(wrap_angle(yaw_of(body.attitude) - 3.0)), 0.03);
+}
+
 TEST_F(FrameAnchorTest, UpIsUpWhereYIsUp) {
   FrameAnchor::Params params;
   params.y_is_up = true;
