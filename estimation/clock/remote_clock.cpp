@@ -8,6 +8,8 @@ namespace swiftlet {
 
 RemoteClock::Reading RemoteClock::observe(Duration stamp, Time arrival) {
   Reading reading;
+  // Who measures it may have been held up: it was then, or before.
+  arrival = last_arrival_ = std::max(arrival, last_arrival_);
   const Duration difference = arrival.time_since_epoch() - stamp;
   reading.restarted = !points_.empty() && was_set(stamp, arrival);
   const bool first = points_.empty() || reading.restarted;

@@ -41,9 +41,9 @@ class RemoteClock {
   explicit RemoteClock(const Params& params) : params_(params) {}
   RemoteClock() : RemoteClock(Params{}) {}
 
-  /// A stamp [ns] of the remote clock, and when it arrived. Arrivals come in their order. From one
-  /// reading to the next our time moves on by half to twice of what the remote one did, while the
-  /// estimate improves, but never beyond the arrival.
+  /// A stamp [ns] of the remote clock, and when it arrived. From one reading to the next our time
+  /// moves on by half to twice of what the remote one did, while the estimate improves, but never
+  /// beyond the arrival (of several that arrive at once, by a nanosecond each).
   Reading observe(Duration stamp, Time arrival);
 
   /// Our seconds less the remote ones, for each remote second [1]: positive where theirs is slow.
@@ -65,6 +65,7 @@ class RemoteClock {
   Duration base_stamp_{};
   Duration base_difference_{};
   Duration last_stamp_{};
+  Time last_arrival_{};
   std::optional<Time> last_time_;
   std::optional<Time> late_since_;
 };
