@@ -68,7 +68,10 @@ class PhoneLink : public Component {
   void receive(const UdpReceiver::Datagram& datagram) {
     const PhoneStream::Received received =
         stream_.receive(datagram.bytes.data(), datagram.size, datagram.sender, datagram.arrival);
-    if (received.clock_restarted) log()->warn("the phone's clock was set; it is learnt anew");
+    if (received.clock_restarted && is_worth_a_line(++report_.clock_restarts)) {
+      log()->warn("the phone's clock was set, and is learnt anew ({} so far)",
+                  report_.clock_restarts);
+    }
     if (received.verdict != PhoneVerdict::kAccepted) return note_refused(received, datagram);
     heard_.heard(now());
     if (received.new_phone) {

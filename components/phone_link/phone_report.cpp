@@ -36,6 +36,7 @@ diagnostic_msgs::msg::DiagnosticStatus PhoneReport::next(const PhoneStream& stre
     add(status, to_string(verdict), std::to_string(count));
   }
   add(status, "given_up", std::to_string(given_up));
+  add(status, "clock_restarts", std::to_string(clock_restarts));
   if (stream.phone()) {
     add(status, "phone", to_string(*stream.phone()));
     add(status, "clock_offset_s", fmt::format("{:.6f}", to_seconds(stream.clock().offset())));

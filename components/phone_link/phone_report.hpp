@@ -15,6 +15,7 @@ class PhoneReport {
  public:
   std::uint64_t jumps = 0;
   JumpAbsorber::Jump last_jump;
+  std::uint64_t clock_restarts = 0;
   std::uint64_t given_up = 0;  ///< datagrams that came faster than they were taken
   std::string obstacle;        ///< why there are no poses; "" where there are
 
