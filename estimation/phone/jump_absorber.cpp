@@ -29,7 +29,7 @@ double shrunk(double error, double step) {
 }  // namespace
 
 JumpAbsorber::Output JumpAbsorber::follow(const Measurement& measurement) {
-  if (!last_ || leads_to(*last_, measurement)) {
+  if (!last_ || (leads_to(*last_, measurement) && !belongs_to_candidates(measurement))) {
     candidates_.clear();
     advance(measurement);
     followed_ = std::min(followed_ + 1, params_.confirmations);
@@ -42,6 +42,17 @@ JumpAbsorber::Output JumpAbsorber::follow(const Measurement& measurement) {
   const Jump jump = absorb();
   candidates_.clear();
   return {Outcome::kJumped, *output_, jump};
+}
+
+/// The longer poses are withheld, the further motion could have led from before them; so it is also
+/// asked which of the two places is nearer.
+bool JumpAbsorber::belongs_to_candidates(const Measurement& measurement) const {
+  if (candidates_.empty() || !leads_to(candidates_.back(), measurement)) return false;
+  const auto way = [&](const Measurement& from) {  // [s]
+    return (measurement.pose.position - from.pose.position).norm() / params_.max_speed +
+           measurement.pose.attitude.angularDistance(from.pose.attitude) / params_.max_turn_rate;
+  };
+  return way(candidates_.back()) < way(*last_);
 }
 
 bool JumpAbsorber::leads_to(const Measurement& from, const Measurement& to) const {

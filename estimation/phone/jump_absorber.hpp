@@ -66,6 +66,7 @@ class JumpAbsorber {
   const std::optional<Pose>& last_output() const { return output_; }
 
  private:
+  bool belongs_to_candidates(const Measurement& measurement) const;
   bool leads_to(const Measurement& from, const Measurement& to) const;
   bool turns_to(const Measurement& from, const Measurement& to) const;
   Jump absorb();

@@ -155,6 +155,22 @@ TEST_F(JumpAbsorberTest, AStandingVehicleMovesNoFasterThanIsAllowed) {
   EXPECT_EQ(output.pose.position, there.position);
 }
 
+/// Motion at the greatest speed would lead there while the poses are withheld.
+TEST_F(JumpAbsorberTest, ASmallJumpIsStillAJump) {
+  run(100);
+  offset_ = {0.4, 0.0, 0.0};
+  for (int i = 0; i + 1 < params_.confirmations; ++i) {
+    ASSERT_EQ(step().outcome, Outcome::kWithheld);
+  }
+  EXPECT_EQ(step().outcome, Outcome::kJumped);
+  yaw_ = 0.5;  // and about where the vehicle is
+  offset_ += truth().position - from_yaw(yaw_) * truth().position;
+  for (int i = 0; i + 1 < params_.confirmations; ++i) {
+    ASSERT_EQ(step().outcome, Outcome::kWithheld);
+  }
+  EXPECT_EQ(step().outcome, Outcome::kJumped);
+}
+
 TEST_F(JumpAbsorberTest, NoiseOfTheHeadingIsNotAbsorbed) {
   position_sigma_ = 0.01;
   attitude_sigma_ = 0.27;  // of the Tango phone, see PhonePoseSensor
