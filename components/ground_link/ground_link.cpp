@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "components/conversions.hpp"
+#include "components/diagnostic_status.hpp"
 #include "components/ground_link/coarse_map.hpp"
 #include "components/ground_link/link_budget.hpp"
 #include "components/ground_link/link_params.hpp"
@@ -224,14 +225,6 @@ class GroundLink : public Component {
       }
     }
     return status;
-  }
-
-  static void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
-                        std::uint64_t value) {
-    diagnostic_msgs::msg::KeyValue entry;
-    entry.key(key);
-    entry.value(std::to_string(value));
-    status.values().push_back(entry);
   }
 
   GroundLinkParams params_;

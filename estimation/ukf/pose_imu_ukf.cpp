@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,15 +26,17 @@ constexpr int kPosition = 0;
 constexpr int kVelocity = 3;
 constexpr int kAttitude = 6;
 constexpr int kBias = 9;
+constexpr int kGyroBias = 12;
+constexpr int kDrift = 15;
 
-// Sigma points: the centre and a pair along each column of the covariance's square root. A
-// positive kappa keeps all weights positive.
-constexpr int kPoints = 2 * PoseImuUkf::kDim + 1;
+// Sigma points over what the motion is not linear in, the attitude and the accelerometer's bias:
+// the centre and a pair along each column of their covariance's square root. A positive kappa keeps
+// all weights positive.
+constexpr int kTurning = 6;
 constexpr double kKappa = 1.0;
-constexpr double kSpread2 = PoseImuUkf::kDim + kKappa;
+constexpr double kSpread2 = kTurning + kKappa;
 constexpr double kCentreWeight = kKappa / kSpread2;
-constexpr double kWeight = 0.5 / kSpread2;
-constexpr int kMeanIterations = 5;
+constexpr double kPairWeight = 1.0 / kSpread2;  // of the two together
 
 // A quaternion further from unit length than this was not meant as an attitude.
 constexpr double kQuaternionTolerance = 0.01;
@@ -49,6 +50,15 @@ double seconds_between(Time from, Time to) {
   return std::abs(rough) > 1e6 ? rough : to_seconds(to - from);
 }
 
+using Measured = Eigen::Matrix<double, PoseImuUkf::kDim, 6>;
+
+/// P H^T: what the measured errors, position plus drift and attitude, have to do with all others.
+Measured measured_columns(const PoseImuUkf::Covariance& P) {
+  Measured columns;
+  columns << P.middleCols<3>(kPosition) + P.middleCols<3>(kDrift), P.middleCols<3>(kAttitude);
+  return columns;
+}
+
 Error refused(std::string reason) {
   return Error{std::move(reason)};
 }
@@ -59,6 +69,7 @@ PoseImuUkf::Covariance process_noise(const PoseImuUkf::Params& params, double dt
   const double gyro = params.gyro_noise * params.gyro_noise;
   const double accelerometer = params.accelerometer_noise * params.accelerometer_noise;
   const double bias = params.bias_random_walk * params.bias_random_walk;
+  const double gyro_bias = params.gyro_bias_random_walk * params.gyro_bias_random_walk;
   PoseImuUkf::Covariance Q = PoseImuUkf::Covariance::Zero();
   for (int i = 0; i < 3; ++i) {
     Q(kPosition + i, kPosition + i) = accelerometer * dt * dt * dt / 3.0;
@@ -67,6 +78,7 @@ PoseImuUkf::Covariance process_noise(const PoseImuUkf::Params& params, double dt
     Q(kVelocity + i, kVelocity + i) = accelerometer * dt;
     Q(kAttitude + i, kAttitude + i) = gyro * dt;
     Q(kBias + i, kBias + i) = bias * dt;
+    Q(kGyroBias + i, kGyroBias + i) = gyro_bias * dt;
   }
   return Q;
 }
@@ -77,7 +89,10 @@ PoseImuUkf::PoseImuUkf(const Params& params) : params_(params) {
   const double positive[] = {params.gyro_noise,
                              params.accelerometer_noise,
                              params.bias_random_walk,
+                             params.gyro_bias_random_walk,
                              params.initial_velocity_sigma,
+                             params.initial_gyro_bias_sigma,
+                             params.drift_time_constant,
                              params.gate,
                              params.initial_accelerometer_bias_sigma,
                              params.max_step,
@@ -92,6 +107,9 @@ PoseImuUkf::PoseImuUkf(const Params& params) : params_(params) {
     if (!(value > 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("UKF: every parameter must be positive and finite");
     }
+  }
+  if (!(params.drift_share >= 0.0 && params.drift_share < 1.0)) {
+    throw std::invalid_argument("UKF: the drift's share of the variance is in [0, 1)");
   }
 }
 
@@ -123,18 +141,23 @@ Status PoseImuUkf::initialize(Time time, const PoseMeasurement& measurement) {
   *this = PoseImuUkf(params_);
   covariance_.block<3, 3>(kBias, kBias) =
       Matrix3d::Identity() * std::pow(params_.initial_accelerometer_bias_sigma, 2);
+  covariance_.block<3, 3>(kGyroBias, kGyroBias) =
+      Matrix3d::Identity() * std::pow(params_.initial_gyro_bias_sigma, 2);
   time_ = time;
   restart(time, measurement);
   initialized_ = true;
   return {};
 }
 
-/// Position, velocity and attitude from `measurement`; the bias is kept, its correlations are not.
+/// Position, velocity and attitude from `measurement`; the biases are kept, their correlations with
+/// the rest are not.
 void PoseImuUkf::restart(Time time, const PoseMeasurement& measurement) {
   p_WB_ = measurement.p_WB;
   q_WB_ = measurement.q_WB.normalized();
   v_WB_W_.setZero();
-  const Matrix3d bias_covariance = covariance_.block<3, 3>(kBias, kBias);
+  drift_.setZero();
+  drift_covariance_ = params_.drift_share * measurement.covariance.topLeftCorner<3, 3>();
+  const Matrix6d biases = covariance_.block<6, 6>(kBias, kBias);
   covariance_.setZero();
   covariance_.block<3, 3>(kPosition, kPosition) = measurement.covariance.topLeftCorner<3, 3>();
   covariance_.block<3, 3>(kPosition, kAttitude) = measurement.covariance.topRightCorner<3, 3>();
@@ -142,15 +165,25 @@ void PoseImuUkf::restart(Time time, const PoseMeasurement& measurement) {
   covariance_.block<3, 3>(kAttitude, kAttitude) = measurement.covariance.bottomRightCorner<3, 3>();
   covariance_.block<3, 3>(kVelocity, kVelocity) =
       Matrix3d::Identity() * std::pow(params_.initial_velocity_sigma, 2);
-  covariance_.block<3, 3>(kBias, kBias) = bias_covariance;
+  covariance_.block<6, 6>(kBias, kBias) = biases;
+  // A measurement that is off by the drift puts the position off by its opposite.
+  covariance_.block<3, 3>(kDrift, kDrift) = drift_covariance_;
+  covariance_.block<3, 3>(kPosition, kDrift) = -drift_covariance_;
+  covariance_.block<3, 3>(kDrift, kPosition) = -drift_covariance_;
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
   time_ = std::max(time_, time);
   last_measurement_time_ = time_;
   rejected_count_ = 0;
 }
 
-Status PoseImuUkf::predict(Time time, const ImuSample& imu) {
-  if (!initialized_) return refused("IMU sample before the first pose");
+/// What of a measurement's covariance is white: all but the drift's share.
+Matrix6d PoseImuUkf::white_covariance(const PoseMeasurement& measurement) const {
+  Matrix6d R = measurement.covariance;
+  R.topLeftCorner<3, 3>() *= 1.0 - params_.drift_share;
+  return R;
+}
+
+Status PoseImuUkf::check(const ImuSample& imu) const {
   if (!imu.angular_velocity.allFinite() || !imu.specific_force.allFinite()) {
     return refused("IMU sample is not finite");
   }
@@ -159,6 +192,12 @@ Status PoseImuUkf::predict(Time time, const ImuSample& imu) {
     return refused(fmt::format("IMU sample with {:.3g} rad/s and {:.3g} m/s^2 is not believable",
                                imu.angular_velocity.stableNorm(), imu.specific_force.stableNorm()));
   }
+  return {};
+}
+
+Status PoseImuUkf::predict(Time time, const ImuSample& imu) {
+  if (!initialized_) return refused("IMU sample before the first pose");
+  if (Status status = check(imu); !status) return status;
   const double dt = seconds_between(time_, time);
   if (dt < 0.0) return refused(fmt::format("IMU time runs backwards by {:.6g} s", -dt));
   if (dt > params_.max_step) {
@@ -176,85 +215,103 @@ Status PoseImuUkf::predict(Time time, const ImuSample& imu) {
   return {};
 }
 
-/// A matrix S with S S^T = covariance. Where rounding made the covariance indefinite, it becomes
-/// the nearest one (in the Frobenius norm) with eigenvalues above a floor.
-PoseImuUkf::Covariance PoseImuUkf::square_root() {
-  const Eigen::LLT<Covariance> cholesky(covariance_);
-  if (cholesky.info() == Eigen::Success) return cholesky.matrixL();
-  const Eigen::SelfAdjointEigenSolver<Covariance> eigen(covariance_);
-  const double floor = std::max(1e-12 * eigen.eigenvalues().maxCoeff(), 1e-18);
-  const ErrorVector eigenvalues = eigen.eigenvalues().cwiseMax(floor);
-  const Covariance& V = eigen.eigenvectors();
-  covariance_ = V * eigenvalues.asDiagonal() * V.transpose();
-  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
-  ++covariance_repairs_;
-  return V * eigenvalues.cwiseSqrt().asDiagonal();
+/// The lower triangular S with S S^T the covariance of attitude and accelerometer bias. Where
+/// rounding made that indefinite, the whole covariance becomes the nearest one (in the Frobenius
+/// norm) with eigenvalues above a floor.
+bool PoseImuUkf::factorise_turning(Matrix6d& S) {
+  Eigen::LLT<Matrix6d> cholesky(covariance_.block<kTurning, kTurning>(kAttitude, kAttitude));
+  if (cholesky.info() != Eigen::Success) {
+    const Eigen::SelfAdjointEigenSolver<Covariance> eigen(covariance_);
+    const double floor = std::max(1e-12 * eigen.eigenvalues().maxCoeff(), 1e-18);
+    const Covariance& V = eigen.eigenvectors();
+    covariance_ = V * eigen.eigenvalues().cwiseMax(floor).asDiagonal() * V.transpose();
+    covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+    ++covariance_repairs_;
+    cholesky.compute(covariance_.block<kTurning, kTurning>(kAttitude, kAttitude));
+  }
+  S = cholesky.matrixL();
+  return cholesky.info() == Eigen::Success;
 }
 
-/// Equation 10 through the sigma points. The input is constant in the body over `dt`, for which
-/// the integrals over the turning body are known in closed form.
+/// Equation 10. The input is constant in the body over `dt`, for which the integrals over the
+/// turning body are known in closed form: what it adds to position and velocity is
+/// g = R(attitude) gain (specific force - bias), the only part that is not linear in the error.
+/// That part goes through the sigma points, the rest exactly: the transform of a function is
+/// known when it is known for the part of the state that it bends.
 bool PoseImuUkf::propagate(double dt, const ImuSample& input) {
   if (dt == 0.0) return true;
-  const Vector3d turn = input.angular_velocity * dt;
-  const Quaterniond dq = exp_so3(turn);
-  const Matrix3d velocity_gain = left_jacobian_so3(turn) * dt;
+  const Vector3d turn = (input.angular_velocity - gyro_bias_) * dt;
+  const Matrix3d turn_jacobian = left_jacobian_so3(turn);
+  const Matrix3d velocity_gain = turn_jacobian * dt;
   const Matrix3d position_gain = left_jacobian_integral_so3(turn) * (dt * dt);
+  const Vector3d f = input.specific_force - accelerometer_bias_;
+  const auto g = [&](const Vector6d& error) {
+    const Matrix3d R = (exp_so3(error.head<3>()) * q_WB_).toRotationMatrix();
+    const Vector3d force = f - error.tail<3>();
+    Vector6d added;
+    added << R * (position_gain * force), R * (velocity_gain * force);
+    return added;
+  };
+
+  Matrix6d S;
+  if (!factorise_turning(S)) return false;
+  const double spread = std::sqrt(kSpread2);
+  const Vector6d centre = g(Vector6d::Zero());
+  Matrix6d odd, even;  // halves of the differences and of the sums of each pair
+  for (int j = 0; j < kTurning; ++j) {
+    const Vector6d ahead = g(spread * S.col(j)), behind = g(-spread * S.col(j));
+    odd.col(j) = 0.5 * (ahead - behind);
+    even.col(j) = 0.5 * (ahead + behind);
+  }
+  const Vector6d mean = kCentreWeight * centre + kPairWeight * even.rowwise().sum();
+  even.colwise() -= mean;
+  const Vector6d off_centre = centre - mean;
+  // The odd parts are those of the linear function G; the even ones are the rest of the covariance.
+  const Matrix6d G =
+      S.transpose().triangularView<Eigen::Upper>().solve(odd.transpose() / spread).transpose();
+  const Matrix6d bent =
+      kPairWeight * even * even.transpose() + kCentreWeight * off_centre * off_centre.transpose();
+
+  const Matrix3d R = q_WB_.toRotationMatrix();
+  const Matrix3d turned = -R * turn_jacobian * dt;    // attitude by gyroscope bias
+  const Matrix3d swept = 0.5 * dt * dt * R * hat(f);  // velocity by gyroscope bias
+  const double kept = std::exp(-dt / params_.drift_time_constant);
+
+  // F P F^T, by the blocks in which F differs from the identity.
+  const Covariance& P = covariance_;
+  Covariance FP = P;
+  FP.middleRows<3>(kPosition) += dt * P.middleRows<3>(kVelocity) +
+                                 G.topRows<3>() * P.middleRows<6>(kAttitude) +
+                                 dt / 3.0 * swept * P.middleRows<3>(kGyroBias);
+  FP.middleRows<3>(kVelocity) +=
+      G.bottomRows<3>() * P.middleRows<6>(kAttitude) + swept * P.middleRows<3>(kGyroBias);
+  FP.middleRows<3>(kAttitude) += turned * P.middleRows<3>(kGyroBias);
+  FP.middleRows<3>(kDrift) *= kept;
+  Covariance next = FP;
+  next.middleCols<3>(kPosition) += dt * FP.middleCols<3>(kVelocity) +
+                                   FP.middleCols<6>(kAttitude) * G.topRows<3>().transpose() +
+                                   FP.middleCols<3>(kGyroBias) * (dt / 3.0 * swept.transpose());
+  next.middleCols<3>(kVelocity) += FP.middleCols<6>(kAttitude) * G.bottomRows<3>().transpose() +
+                                   FP.middleCols<3>(kGyroBias) * swept.transpose();
+  next.middleCols<3>(kAttitude) += FP.middleCols<3>(kGyroBias) * turned.transpose();
+  next.middleCols<3>(kDrift) *= kept;
+  next.topLeftCorner<6, 6>() += bent;
+  next += process_noise(params_, dt);
+  next.block<3, 3>(kDrift, kDrift) += (1.0 - kept * kept) * drift_covariance_;
+  next = 0.5 * (next + next.transpose()).eval();
+  if (!next.allFinite() || !mean.allFinite()) return false;
+
   const Vector3d gravity(0.0, 0.0, -kGravity);
-  const Covariance S = std::sqrt(kSpread2) * square_root();
-
-  Eigen::Matrix<double, kDim, kPoints> points;  // attitude rows: filled below
-  std::array<Quaterniond, kPoints> attitudes;
-  for (int i = 0; i < kPoints; ++i) {
-    ErrorVector error = ErrorVector::Zero();
-    if (i > 0) error = i <= kDim ? ErrorVector(S.col(i - 1)) : ErrorVector(-S.col(i - 1 - kDim));
-    const Quaterniond q = exp_so3(error.segment<3>(kAttitude)) * q_WB_;
-    const Matrix3d R = q.toRotationMatrix();
-    const Vector3d v = v_WB_W_ + error.segment<3>(kVelocity);
-    const Vector3d bias = accelerometer_bias_ + error.segment<3>(kBias);
-    const Vector3d f = input.specific_force - bias;
-    points.block<3, 1>(kPosition, i) = p_WB_ + error.segment<3>(kPosition) + v * dt +
-                                       R * (position_gain * f) + 0.5 * dt * dt * gravity;
-    points.block<3, 1>(kVelocity, i) = v + R * (velocity_gain * f) + gravity * dt;
-    points.block<3, 1>(kBias, i) = bias;
-    attitudes[static_cast<std::size_t>(i)] = q * dq;
-  }
-
-  // Attitude mean: the rotation from which the weighted deviations cancel.
-  Quaterniond mean_attitude = attitudes[0];
-  for (int iteration = 0; iteration < kMeanIterations; ++iteration) {
-    Vector3d correction = Vector3d::Zero();
-    const Quaterniond inverse = mean_attitude.conjugate();
-    for (int i = 0; i < kPoints; ++i) {
-      const Vector3d deviation = log_so3(attitudes[static_cast<std::size_t>(i)] * inverse);
-      points.block<3, 1>(kAttitude, i) = deviation;
-      correction += (i == 0 ? kCentreWeight : kWeight) * deviation;
-    }
-    if (correction.squaredNorm() < 1e-24) break;
-    mean_attitude = exp_so3(correction) * mean_attitude;
-  }
-
-  // The attitude rows hold deviations already; their mean is zero.
-  ErrorVector mean =
-      kCentreWeight * points.col(0) + kWeight * points.rightCols<2 * kDim>().rowwise().sum();
-  mean.segment<3>(kAttitude).setZero();
-  points.colwise() -= mean;
-  Covariance covariance = process_noise(params_, dt);
-  covariance += kWeight * points.rightCols<2 * kDim>() * points.rightCols<2 * kDim>().transpose();
-  covariance += kCentreWeight * points.col(0) * points.col(0).transpose();
-  covariance = 0.5 * (covariance + covariance.transpose()).eval();
-  if (!covariance.allFinite() || !mean.allFinite()) return false;
-
-  p_WB_ = mean.segment<3>(kPosition);
-  v_WB_W_ = mean.segment<3>(kVelocity);
-  accelerometer_bias_ = mean.segment<3>(kBias);
-  q_WB_ = mean_attitude.normalized();
-  covariance_ = covariance;
+  p_WB_ += dt * v_WB_W_ + 0.5 * dt * dt * gravity + mean.head<3>();
+  v_WB_W_ += dt * gravity + mean.tail<3>();
+  q_WB_ = (q_WB_ * exp_so3(turn)).normalized();
+  drift_ *= kept;
+  covariance_ = next;
   return true;
 }
 
-/// Equation 11. In the error state the measurement is the error's position and attitude rows and
-/// nothing else, so H is linear and constant, and the Kalman update is what sigma points would
-/// give, without them.
+/// Equation 11. In the error state the measurement is position plus drift, and attitude, so H is
+/// linear and constant, and the Kalman update is what sigma points would give, without them.
 UpdateReport PoseImuUkf::update(Time time, const PoseMeasurement& measurement) {
   UpdateReport report;
   const auto refuse = [&report](std::string reason) {
@@ -280,13 +337,12 @@ UpdateReport PoseImuUkf::update(Time time, const PoseMeasurement& measurement) {
   }
 
   Vector6d innovation;
-  innovation << measurement.p_WB - p_WB_,
+  innovation << measurement.p_WB - p_WB_ - drift_,
       log_so3(measurement.q_WB.normalized() * q_WB_.conjugate());
-  Eigen::Matrix<double, kDim, 6> PHt;
-  PHt << covariance_.middleCols<3>(kPosition), covariance_.middleCols<3>(kAttitude);
-  const Matrix6d& R = measurement.covariance;
+  const Measured PHt = measured_columns(covariance_);
+  const Matrix6d R = white_covariance(measurement);
   Matrix6d S = R;
-  S.topRows<3>() += PHt.middleRows<3>(kPosition);
+  S.topRows<3>() += PHt.middleRows<3>(kPosition) + PHt.middleRows<3>(kDrift);
   S.bottomRows<3>() += PHt.middleRows<3>(kAttitude);
   const Eigen::LLT<Matrix6d> cholesky(S);
   if (cholesky.info() != Eigen::Success) return refuse("innovation covariance is indefinite");
@@ -299,17 +355,17 @@ UpdateReport PoseImuUkf::update(Time time, const PoseMeasurement& measurement) {
     return reject(time, measurement, std::move(report));
   }
 
-  Eigen::Matrix<double, kDim, 6> K = cholesky.solve(PHt.transpose()).transpose();
+  const Measured K = cholesky.solve(PHt.transpose()).transpose();
   const ErrorVector correction = K * innovation;
-  // Joseph form, which stays positive definite; then the errors are counted from the corrected
-  // attitude, which turns their axes by the left Jacobian.
-  Covariance A = Covariance::Identity();
-  A.middleCols<3>(kPosition) -= K.leftCols<3>();
-  A.middleCols<3>(kAttitude) -= K.rightCols<3>();
+  // Joseph's form (I - K H) P (I - K H)^T + K R K^T, one factor after the other.
+  Covariance covariance = covariance_ - K * PHt.transpose();
+  covariance -= measured_columns(covariance) * K.transpose();
+  covariance += K * R * K.transpose();
+  // Errors are counted from the corrected attitude, which turns their axes by the left Jacobian.
   const Matrix3d J = left_jacobian_so3(correction.segment<3>(kAttitude));
-  A.middleRows<3>(kAttitude) = (J * A.middleRows<3>(kAttitude)).eval();
-  K.middleRows<3>(kAttitude) = (J * K.middleRows<3>(kAttitude)).eval();
-  Covariance covariance = A * covariance_ * A.transpose() + K * R * K.transpose();
+  covariance.middleRows<3>(kAttitude) = (J * covariance.middleRows<3>(kAttitude)).eval();
+  covariance.middleCols<3>(kAttitude) =
+      (covariance.middleCols<3>(kAttitude) * J.transpose()).eval();
   covariance = 0.5 * (covariance + covariance.transpose()).eval();
   if (!covariance.allFinite() || !correction.allFinite()) return refuse("update is not finite");
 
@@ -317,6 +373,8 @@ UpdateReport PoseImuUkf::update(Time time, const PoseMeasurement& measurement) {
   v_WB_W_ += correction.segment<3>(kVelocity);
   q_WB_ = (exp_so3(correction.segment<3>(kAttitude)) * q_WB_).normalized();
   accelerometer_bias_ += correction.segment<3>(kBias);
+  gyro_bias_ += correction.segment<3>(kGyroBias);
+  drift_ += correction.segment<3>(kDrift);
   covariance_ = covariance;
   last_measurement_time_ = time_;
   rejected_count_ = 0;

@@ -67,6 +67,13 @@ inline Matrix6d pose_covariance(double position_sigma, double attitude_sigma) {
   return variances.asDiagonal();
 }
 
+/// What a sensor is off by, beside its white noise.
+struct Biases {
+  Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyroscope = Eigen::Vector3d::Zero();
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();  ///< of the measured position
+};
+
 /// The pose of the motion, with noise of the given covariance where `noise` is given.
 inline PoseMeasurement measure(const Motion& motion, double t, const Matrix6d& covariance,
                                Noise* noise = nullptr) {
@@ -79,19 +86,22 @@ inline PoseMeasurement measure(const Motion& motion, double t, const Matrix6d& c
 }
 
 inline ImuSample noisy(ImuSample imu, const PoseImuUkf::Params& params, double dt,
-                       const Eigen::Vector3d& bias, Noise& noise) {
-  imu.angular_velocity += params.gyro_noise / std::sqrt(dt) * noise.vector();
-  imu.specific_force += bias + params.accelerometer_noise / std::sqrt(dt) * noise.vector();
+                       const Biases& biases, Noise& noise) {
+  imu.angular_velocity += biases.gyroscope + params.gyro_noise / std::sqrt(dt) * noise.vector();
+  imu.specific_force +=
+      biases.accelerometer + params.accelerometer_noise / std::sqrt(dt) * noise.vector();
   return imu;
 }
 
 /// Error of the filter in the coordinates of its covariance.
 inline PoseImuUkf::ErrorVector error_of(const PoseImuUkf& filter, const Motion& motion, double t,
-                                        const Eigen::Vector3d& bias) {
+                                        const Biases& biases) {
   const RigidBodyState state = filter.state();
   PoseImuUkf::ErrorVector error;
   error << motion.position(t) - state.p_WB, motion.velocity(t) - state.v_WB_W,
-      log_so3(motion.attitude(t) * state.q_WB.conjugate()), bias - filter.accelerometer_bias();
+      log_so3(motion.attitude(t) * state.q_WB.conjugate()),
+      biases.accelerometer - filter.accelerometer_bias(), biases.gyroscope - filter.gyro_bias(),
+      biases.drift - filter.drift();
   return error;
 }
 

@@ -23,7 +23,8 @@ PoseMeasurement sure_pose(const Vector3d& p_WB, const Quaterniond& q_WB) {
 /// A filter that trusts its input, so that the mean is not bent by a spread of attitudes.
 PoseImuUkf sure_filter() {
   PoseImuUkf::Params params;
-  params.gyro_noise = params.accelerometer_noise = params.bias_random_walk = 1e-9;
+  params.gyro_noise = params.accelerometer_noise = params.bias_random_walk =
+      params.gyro_bias_random_walk = params.initial_gyro_bias_sigma = 1e-9;
   return PoseImuUkf(params);
 }
 
@@ -63,34 +64,37 @@ TEST(PoseImuUkf, PredictsAnyMotionToSecondOrderInTheSampleTime) {
   EXPECT_NEAR(coarse / fine, 16.0, 3.0);
 }
 
-TEST(PoseImuUkf, WithoutNoiseItFindsTruthAndBias) {
+TEST(PoseImuUkf, WithoutNoiseItFindsTruthAndBiases) {
   Motion motion;
   motion.drift = {0.4, -0.3, 0.2};  // the filter starts at rest
-  const Vector3d bias(0.2, -0.15, 0.1);
+  const Biases biases{{0.2, -0.15, 0.1}, {0.02, 0.01, -0.03}, Vector3d::Zero()};
   PoseImuUkf filter;
   const Matrix6d covariance = pose_covariance(1e-3, 1e-3);
   ASSERT_TRUE(filter.initialize(at(0), measure(motion, 0, covariance)));
   for (int k = 0; k <= 4000; ++k) {
     const double t = k * kDt;
     ImuSample imu = motion.imu(t);
-    imu.specific_force += bias;
+    imu.specific_force += biases.accelerometer;
+    imu.angular_velocity += biases.gyroscope;
     ASSERT_TRUE(filter.predict(at(t), imu));
     if (k % 7 == 0) {
       ASSERT_EQ(filter.update(at(t), measure(motion, t, covariance)).outcome,
                 PoseImuUkf::Outcome::kUsed);
     }
   }
-  const auto error = error_of(filter, motion, 20.0, bias);
+  const auto error = error_of(filter, motion, 20.0, biases);
   EXPECT_LT(error.head<3>().norm(), 1e-3);
   EXPECT_LT(error.segment<3>(3).norm(), 2e-3);
   EXPECT_LT(error.segment<3>(6).norm(), 1e-3);
-  EXPECT_LT(error.tail<3>().norm(), 4e-3);
+  EXPECT_LT(error.segment<3>(9).norm(), 4e-3);
+  EXPECT_LT(error.segment<3>(12).norm(), 1e-3);
+  EXPECT_LT((filter.state().w_WB_B - motion.angular_velocity(20.0)).norm(), 1e-3);
   EXPECT_EQ(filter.covariance_repairs(), 0u);
 }
 
 TEST(PoseImuUkf, EstimatesBiasAndVelocityUnderNoise) {
   const Motion motion;
-  const Vector3d bias(0.2, -0.15, 0.1);
+  const Biases biases{{0.2, -0.15, 0.1}, {0.02, 0.01, -0.03}, Vector3d::Zero()};
   Noise noise(7);
   PoseImuUkf::Params params;
   PoseImuUkf filter(params);
@@ -100,14 +104,14 @@ TEST(PoseImuUkf, EstimatesBiasAndVelocityUnderNoise) {
   int samples = 0;
   for (int k = 0; k <= 6000; ++k) {
     const double t = k * kDt;
-    ASSERT_TRUE(filter.predict(at(t), noisy(motion.imu(t), params, kDt, bias, noise)));
+    ASSERT_TRUE(filter.predict(at(t), noisy(motion.imu(t), params, kDt, biases, noise)));
     if (k % 7 == 0) filter.update(at(t), measure(motion, t, covariance, &noise));
     if (t > 10.0) {
-      squared_velocity_error += error_of(filter, motion, t, bias).segment<3>(3).squaredNorm() / 3;
+      squared_velocity_error += error_of(filter, motion, t, biases).segment<3>(3).squaredNorm() / 3;
       ++samples;
     }
   }
-  EXPECT_LT((filter.accelerometer_bias() - bias).norm(), 0.05);
+  EXPECT_LT((filter.accelerometer_bias() - biases.accelerometer).norm(), 0.05);
   // Seed 000, Table 3: 0.0533 to 0.0788 m/s.
   EXPECT_LT(std::sqrt(squared_velocity_error / samples), 0.0533);
 }
@@ -127,7 +131,7 @@ TEST(PoseImuUkf, DoesNotCareWhereNorthAndTheOriginAre) {
   ASSERT_TRUE(there.initialize(at(0), moved(first)));
   for (int k = 0; k <= 1000; ++k) {
     const double t = k * kDt;
-    const ImuSample imu = noisy(motion.imu(t), {}, kDt, Vector3d(0.1, 0, 0), noise);
+    const ImuSample imu = noisy(motion.imu(t), {}, kDt, {{0.1, 0, 0}}, noise);
     ASSERT_TRUE(here.predict(at(t), imu));
     ASSERT_TRUE(there.predict(at(t), imu));
     if (k % 7 != 0) continue;
