@@ -63,11 +63,15 @@ Vector3d attitude_error(const Matrix3d& R_WB, const Matrix3d& R_WC) {
 Se3Controller::Se3Controller(const Params& params, const QuadrotorModel& model)
     : params_(params), model_(model) {
   const auto positive = [](const auto& v) { return (Eigen::Array3d(v) > 0.0).all(); };
-  const double limits[] = {
-      params.max_integral_acceleration, params.min_specific_thrust,
-      params.max_commanded_rate,        params.max_commanded_angular_acceleration,
-      params.max_heading_error,         params.max_yaw_rate,
-      params.max_yaw_acceleration,      model.mass};
+  const double limits[] = {params.max_integral_acceleration,
+                           params.min_specific_thrust,
+                           params.max_commanded_rate,
+                           params.max_commanded_angular_acceleration,
+                           params.max_heading_error,
+                           params.max_yaw_rate,
+                           params.max_yaw_acceleration,
+                           params.max_integral_velocity_error,
+                           model.mass};
   const bool fine =
       usable(params.position_gain) && usable(params.velocity_gain) &&
       usable(params.attitude_gain) && usable(params.rate_gain) && usable(params.integral_gain) &&
@@ -182,7 +186,8 @@ TrackingOutput Se3Controller::compute(const RigidBodyState& state, const FlatRef
 PositionIntegral Se3Controller::integrate(const PositionIntegral& integral,
                                           const TrackingOutput& output, double dt) const {
   const bool frozen = output.force_limited || output.input_refused || !(dt > 0.0) || dt > 1.0 ||
-                      !output.position_error.allFinite();
+                      !output.position_error.allFinite() ||
+                      !(output.velocity_error.norm() <= params_.max_integral_velocity_error);
   PositionIntegral next = integral;
   if (!next.value.allFinite()) next.value.setZero();
   if (!frozen) next.value += dt * output.position_error;

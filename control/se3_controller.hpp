@@ -55,6 +55,9 @@ class Se3Controller {
     Eigen::Vector3d rate_gain{18.0, 18.0, 8.0};         ///< [1/s]
     Eigen::Vector3d integral_gain{2.0, 2.0, 2.0};       ///< on position, not in the paper [1/s^3]
     double max_integral_acceleration = 2.0;  ///< what the integral may ask for, each axis [m/s^2]
+    /// The integral waits while the velocity is further off than this: wind holds the vehicle
+    /// beside its reference, a push moves it [m/s].
+    double max_integral_velocity_error = 0.3;
 
     double max_tilt = 0.61;                            ///< of the commanded force, below 1.4 [rad]
     double min_specific_thrust = 2.0;                  ///< per mass [m/s^2]
@@ -74,7 +77,8 @@ class Se3Controller {
                          const PositionIntegral& integral = {}) const;
 
   /// The integral after `dt` seconds with the errors of `output`. It stops where the force is
-  /// limited and never asks for more than `max_integral_acceleration` (anti-windup).
+  /// limited and where the vehicle moves against its reference, and never asks for more than
+  /// `max_integral_acceleration` (anti-windup).
   PositionIntegral integrate(const PositionIntegral& integral, const TrackingOutput& output,
                              double dt) const;
 

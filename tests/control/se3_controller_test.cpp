@@ -225,6 +225,32 @@ TEST(Se3Controller, TheIntegralTakesAwayTheOffsetOfWindAndDoesNotWindUp) {
   EXPECT_EQ(controller.integrate({}, output, std::nan("")).value, Vector3d(Vector3d::Zero()));
 }
 
+TEST(Se3Controller, APushOfAMomentIsNotTakenForWind) {
+  // By 0.7 m, as in Figure 7 of seed 000, and back within 5 cm in less than the 3 s of the paper.
+  // An integral that counts the way out and back holds the vehicle off for another four.
+  const QuadrotorModel model;
+  const Se3Controller controller(Se3Controller::Params{}, model);
+  const Mixer mixer(model);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vehicle vehicle;
+    Rotors rotors(model);
+    PositionIntegral integral;
+    double farthest = 0.0, recovered_s = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+      const double since_release = k * kDt - 0.8;
+      vehicle.wind_force = Vector3d::Zero();
+      if (since_release < 0.0) vehicle.wind_force[axis] = axis == 2 ? 6.3 : 4.6;
+      const TrackingOutput output = controller.compute(vehicle.state(), {}, integral);
+      integral = controller.integrate(integral, output, kDt);
+      vehicle.step(rotors.step(mixer.mix(output.wrench).rotor_thrusts, kDt), kDt);
+      farthest = std::max(farthest, vehicle.p.norm());
+      if (vehicle.p.norm() > 0.05) recovered_s = since_release;
+    }
+    EXPECT_GT(farthest, 0.6) << axis;
+    EXPECT_LT(recovered_s, 1.5) << axis;
+  }
+}
+
 TEST(AttitudeError, IsTheSineOfTheAngleAlongItsAxisAndChangesSignWithTheRoles) {
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
