@@ -46,6 +46,7 @@ nlohmann::json to_json(const FlightReport& report) {
       record.on_ground ? number(landing_error(report)) : nlohmann::json(nullptr);
   json["position_rmse_m"] = {record.position_rmse.x(), record.position_rmse.y(),
                              record.position_rmse.z()};
+  json["pose_nees"] = number(record.pose_nees);
   json["flight_time_s"] = report.outcome.flight_time;
   json["speed_factor"] = number(report.speed_factor);
   json["bag_hash"] = report.bag_hash ? nlohmann::json(*report.bag_hash) : nlohmann::json(nullptr);

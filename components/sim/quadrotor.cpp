@@ -21,10 +21,10 @@ constexpr double kPositionLimit = 1e6;  // [m]
 
 /// What acts on the body during one step.
 struct Loads {
-  double thrust;       // along z of the body [N]
-  Vector3d moment_B;   // of the rotors and of contact [N m]
-  Vector3d contact_W;  // [N]
-  Vector3d wind;       // velocity of the air [m/s]
+  double thrust;      // along z of the body [N]
+  Vector3d moment_B;  // of the rotors and of contact [N m]
+  Vector3d force_W;   // of contact and of who pushes [N]
+  Vector3d wind;      // velocity of the air [m/s]
 };
 
 struct Derivative {
@@ -41,7 +41,7 @@ Derivative equation_1(const RigidBodyState& s, const Quadrotor::Params& params,
   const Vector3d airspeed = s.v_WB_W - loads.wind;
   const Vector3d drag = -(params.linear_drag + params.quadratic_drag * airspeed.norm()) * airspeed;
   const Vector3d force =
-      s.q_WB.normalized() * Vector3d(0.0, 0.0, loads.thrust) + drag + loads.contact_W;
+      s.q_WB.normalized() * Vector3d(0.0, 0.0, loads.thrust) + drag + loads.force_W;
   const Vector3d momentum = model.inertia.cwiseProduct(s.w_WB_B);
   Derivative d;
   d.p = s.v_WB_W;
@@ -104,13 +104,13 @@ bool Quadrotor::reset(Time time, const RigidBodyState& body) {
 }
 
 void Quadrotor::step(Duration dt, const Vector4d& thrust_commands, const Vector3d& wind,
-                     const World& world) {
+                     const World& world, const Vector3d& push) {
   if (dt <= Duration::zero()) return;
   const Vector3d air = wind.allFinite() ? wind : Vector3d::Zero();
   const auto steps = static_cast<int>(std::ceil(to_seconds(dt) / kLongestStep - 1e-9));
   const Time begin = truth_.time;
   for (int i = 0; i < steps; ++i) {
-    substep(to_seconds(dt) / steps, thrust_commands, air, world);
+    substep(to_seconds(dt) / steps, thrust_commands, air, world, push);
     truth_.time = begin + dt * (i + 1) / steps;
   }
 }
@@ -132,14 +132,14 @@ Vector4d Quadrotor::lag_rotors(double dt, const Vector4d& commands) {
 }
 
 void Quadrotor::substep(double dt, const Vector4d& commands, const Vector3d& wind,
-                        const World& world) {
+                        const World& world, const Vector3d& push) {
   // Equation 2: rotor thrusts to collective thrust and moments.
   const Vector4d wrench = allocation_ * lag_rotors(dt, commands);
   const ContactWrench ground = ground_.step(truth_.body, world, dt);
   hull_.watch_clearance(!ground.is_near);
   const ContactWrench hull = hull_.step(truth_.time, truth_.body, world);
   const Loads loads{wrench[0], wrench.tail<3>() + ground.moment_B + hull.moment_B,
-                    ground.force_W + hull.force_W, wind};
+                    ground.force_W + hull.force_W + push, wind};
 
   const RigidBodyState before = truth_.body;
   RigidBodyState after = runge_kutta(before, params_, loads, dt);

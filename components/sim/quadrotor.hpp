@@ -48,9 +48,9 @@ class Quadrotor {
   /// Moves on by `dt` (steps above 1 ms are divided; nothing happens for dt <= 0).
   /// `thrust_commands` [N] per rotor: a command above zero is kept within the limits of the model,
   /// zero and less (or not a number) switches the rotor off. `wind` is the velocity of the air in
-  /// the world [m/s].
+  /// the world [m/s], `push` a force on the centre of mass, in the world [N].
   void step(Duration dt, const Eigen::Vector4d& thrust_commands, const Eigen::Vector3d& wind,
-            const World& world);
+            const World& world, const Eigen::Vector3d& push = Eigen::Vector3d::Zero());
 
   const VehicleTruth& truth() const { return truth_; }
   const HullContact& hull() const { return hull_; }
@@ -58,7 +58,7 @@ class Quadrotor {
 
  private:
   void substep(double dt, const Eigen::Vector4d& commands, const Eigen::Vector3d& wind,
-               const World& world);
+               const World& world, const Eigen::Vector3d& push);
   Eigen::Vector4d lag_rotors(double dt, const Eigen::Vector4d& commands);
 
   Params params_;

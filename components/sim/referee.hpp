@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/topics.hpp"
+#include "estimation/consistency/consistency_window.hpp"
 #include "estimation/geometry/pose_history.hpp"
 
 namespace swiftlet {
@@ -21,13 +22,17 @@ struct FlightRecord {
   Eigen::Vector3d closest_at = Eigen::Vector3d::Zero();     ///< where that was [m]
   Eigen::Vector3d position_rmse = Eigen::Vector3d::Zero();  ///< truth against reference [m]
   Eigen::Vector3d final_position = Eigen::Vector3d::Zero();
+  /// Normalised square of the estimate's error of pose, mean of the flight: 6 where the covariance
+  /// is as large as the errors. Zero where no estimate was heard.
+  double pose_nees = 0.0;
   bool on_ground = true;                   ///< at the end
   std::vector<Eigen::Vector3d> flown;      ///< at 20 Hz, while armed [m]
   std::vector<double> flown_speed;         ///< of each [m/s]
   std::vector<Eigen::Vector3d> reference;  ///< at 20 Hz, while armed [m]
 };
 
-/// Watches a simulated flight and keeps the score. It takes part in nothing.
+/// Watches a simulated flight and keeps the score. It takes part in nothing, and says on
+/// `diagnostics` how good the estimate's covariance is.
 class Referee : public Component {
  public:
   explicit Referee(const ComponentContext& context);
@@ -37,6 +42,8 @@ class Referee : public Component {
  private:
   void on_truth(const swiftlet_msgs::msg::SimTruth& truth);
   void on_setpoint(const swiftlet_msgs::msg::Setpoint& setpoint);
+  void on_odometry(const nav_msgs::msg::Odometry& odometry);
+  void report(Time now);
   void score();
 
   PoseHistory truth_;
@@ -46,7 +53,11 @@ class Referee : public Component {
     Time time;
     Eigen::Vector3d position;
   };
-  std::deque<Reference> waiting_;  // for the truth of their time
+  std::deque<Reference> waiting_;                  // for the truth of their time
+  std::deque<nav_msgs::msg::Odometry> estimates_;  // likewise
+  ConsistencyWindow nees_{6};                      // of the flight
+  ConsistencyWindow recent_nees_{6};               // since the last report
+  Publisher<diagnostic_msgs::msg::DiagnosticArray> diagnostics_;
   Eigen::Vector3d squared_error_ = Eigen::Vector3d::Zero();
   std::int64_t scored_ = 0;
   std::int64_t truths_ = 0;

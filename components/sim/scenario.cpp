@@ -66,6 +66,16 @@ void read_obstacles(const Config& config, std::vector<Scenario::Obstacle>& obsta
   }
 }
 
+void read_pushes(const Config& config, std::vector<Scenario::Push>& pushes) {
+  for (const Config& item : config.list("pushes")) {
+    Scenario::Push push;
+    item.require("at_s", push.at_s, kNotNegative);
+    item.require("duration_s", push.duration_s, kPositive);
+    item.require("force", push.force, Range{-1000.0, 1000.0});
+    pushes.push_back(push);
+  }
+}
+
 void read_map(const Config& config, Scenario::MapBounds& map) {
   config.read("min", map.min);
   config.read("max", map.max);
@@ -103,6 +113,7 @@ Scenario Scenario::read(const Config& config) {
   read_sensors(config.child("sensors"), scenario.sensors);
   read_mission(config.child("mission"), scenario.mission);
   read_obstacles(config, scenario.obstacles);
+  read_pushes(config, scenario.pushes);
   config.read("time_limit_s", scenario.time_limit_s, kPositive);
   read_map(config.child("map"), scenario.map);
   config.finish();

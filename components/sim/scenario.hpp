@@ -59,6 +59,12 @@ struct Scenario {
     double appears_at_s = 0.0;
     std::optional<double> disappears_at_s;
   };
+  /// Somebody pushes the vehicle for a while: a force on its centre of mass.
+  struct Push {
+    double at_s = 0.0;
+    double duration_s = 0.0;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< in the world [N]
+  };
   /// The area that a map of the world has to cover.
   struct MapBounds {
     Eigen::Vector2d min{-10.0, -10.0};  ///< [m]
@@ -77,6 +83,7 @@ struct Scenario {
   Sensors sensors;
   Mission mission;
   std::vector<Obstacle> obstacles;
+  std::vector<Push> pushes;
   double time_limit_s = 300.0;
   MapBounds map;
 

@@ -45,7 +45,7 @@ SensorReadings Simulation::step(Duration dt, const Eigen::Vector4d& thrust_comma
   if (dt <= Duration::zero()) return {};
   move_obstacles();
   wind_.step(dt);
-  vehicle_.step(dt, thrust_commands, wind_.velocity(), world_);
+  vehicle_.step(dt, thrust_commands, wind_.velocity(), world_, push());
 
   const VehicleTruth& truth = vehicle_.truth();
   SensorReadings readings;
@@ -55,6 +55,17 @@ SensorReadings Simulation::step(Duration dt, const Eigen::Vector4d& thrust_comma
   readings.range_down = sonar_.update(truth, world_);
   readings.battery = battery_.update(truth);
   return readings;
+}
+
+/// The force of all who push at present [N].
+Vector3d Simulation::push() const {
+  Vector3d force = Vector3d::Zero();
+  for (const Scenario::Push& push : scenario_.pushes) {
+    const Time begin{from_seconds(push.at_s)};
+    const Duration lasted = vehicle_.truth().time - begin;
+    if (lasted >= Duration(0) && lasted < from_seconds(push.duration_s)) force += push.force;
+  }
+  return force;
 }
 
 void Simulation::move_obstacles() {

@@ -52,6 +52,7 @@ class Simulation {
 
  private:
   void move_obstacles();
+  Eigen::Vector3d push() const;
 
   Scenario scenario_;
   World world_;

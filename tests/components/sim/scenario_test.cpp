@@ -50,6 +50,7 @@ mission:
   return_to_pad: false
 obstacles:
   - {name: door, position: [1, 2, 3], size: [1, 0.1, 2], appears_at_s: 5, disappears_at_s: 9}
+pushes: [{at_s: 12, duration_s: 0.5, force: [0, 0, -3]}]
 time_limit_s: 60
 map: {min: [-1, -2], max: [3, 4], resolution: 0.1}
 )");
@@ -74,6 +75,8 @@ map: {min: [-1, -2], max: [3, 4], resolution: 0.1}
   EXPECT_TRUE(scenario.mission.land);
   ASSERT_EQ(scenario.obstacles.size(), 1U);
   EXPECT_EQ(scenario.obstacles[0].disappears_at_s, 9.0);
+  ASSERT_EQ(scenario.pushes.size(), 1U);
+  EXPECT_EQ(scenario.pushes[0].force, Eigen::Vector3d(0, 0, -3));
   EXPECT_EQ(scenario.map.max, Eigen::Vector2d(3, 4));
 }
 
@@ -115,6 +118,7 @@ TEST_F(ScenarioFile, BadInputIsRefusedWithItsLineAndARemedy) {
       {"obstacles:\n  - {name: a, position: [0, 0, 0], size: [1, 1, 1]}\n"
        "  - {name: a, position: [0, 0, 0], size: [1, 1, 1]}",
        {"s.yaml:5", "already", "differently"}},
+      {"pushes: [{at_s: 1, force: [1, 0, 0]}]", {"s.yaml:3", "'duration_s' is missing"}},
       {"map: {min: [0, 0], max: [1, -1]}", {"s.yaml:3", "more than 'min'"}},
       {"map: {min: [0, 0], max: [9999, 9999], resolution: 0.01}", {"s.yaml:3", "coarser"}},
       {"time_limit_s: soon", {"s.yaml:3", "'time_limit_s' must be a number"}},

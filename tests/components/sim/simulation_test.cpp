@@ -166,6 +166,25 @@ TEST(Simulation, ObstaclesComeAndGoAtTheirTimes) {
   EXPECT_NEAR(range_ahead(), 11.95, 1e-4);
 }
 
+TEST(Simulation, APushChangesTheMomentumByItsImpulse) {
+  Scenario scenario = office();
+  scenario.start.z = 1.5;
+  scenario.vehicle.linear_drag = scenario.vehicle.quadratic_drag = 0.0;
+  scenario.wind = {};
+  Scenario pushed = scenario;
+  pushed.pushes = {{0.05, 0.1, {0.4, 0, 0}}, {0.1, 0.1, {0, 0, -0.6}}};
+  Simulation free(scenario), simulation(pushed);
+  for (int i = 0; i < 300; ++i) {
+    free.step(Simulation::kStep, Vector4d::Zero());
+    simulation.step(Simulation::kStep, Vector4d::Zero());
+    if (i < 50) {
+      EXPECT_EQ(simulation.truth().body.v_WB_W, free.truth().body.v_WB_W);
+    }
+  }
+  const Eigen::Vector3d gained = simulation.truth().body.v_WB_W - free.truth().body.v_WB_W;
+  EXPECT_LT((scenario.vehicle.model.mass * gained - Eigen::Vector3d(0.04, 0, -0.06)).norm(), 1e-9);
+}
+
 TEST(Simulation, FlyingIntoTheWallIsReported) {
   Scenario scenario = office();
   Simulation simulation(scenario);
