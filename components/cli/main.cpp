@@ -7,9 +7,12 @@
 #include "components/bag/bag_commands.hpp"
 #include "components/bag/live_commands.hpp"
 #include "components/cli/verbs.hpp"
+#ifdef SWIFTLET_WITH_SIM
+#include "components/experiments/experiment_command.hpp"
+#include "components/phone_sim/phone_sim_command.hpp"
+#endif
 #include "components/introspection/introspection_commands.hpp"
 #include "components/launch/launch_command.hpp"
-#include "components/phone_sim/phone_sim_command.hpp"
 #include "components/replay/replay_command.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
@@ -52,7 +55,9 @@ int main(int argc, char** argv) {
       },
       "Least important log lines to show: trace, debug, info, warning, error, off");
 
+#ifdef SWIFTLET_WITH_FLY
   swiftlet::add_fly(app);
+#endif
   swiftlet::add_run(app);
   swiftlet::add_launch(app);
   swiftlet::add_trajectory(app);
@@ -62,11 +67,14 @@ int main(int argc, char** argv) {
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
-  swiftlet::add_phone_sim(app);
   swiftlet::add_topic_commands(app);
   swiftlet::add_component_commands(app);
   swiftlet::add_param_commands(app);
   swiftlet::add_doctor(app);
+#ifdef SWIFTLET_WITH_SIM
+  swiftlet::add_experiment(app);
+  swiftlet::add_phone_sim(app);
+#endif
 
   try {
     app.parse(argc, argv);
