@@ -4,7 +4,7 @@
 # Short names for what one does every day. Each target says what it is doing and repeats nothing
 # that is done already.
 
-.PHONY: help packages build program demo test test-full bench bench-middleware asan tsan fuzz format tidy clean
+.PHONY: help packages build program demo test test-full bench bench-middleware bench-chain asan tsan fuzz format tidy clean
 
 PROGRAM := build/release/swiftlet
 SCENARIO := components/sim/scenarios/office.yaml
@@ -16,6 +16,7 @@ help:
 	@echo "make test       install packages, build, and run the tests"
 	@echo "make test-full  the tests with many seeds and long runs"
 	@echo "make bench      benchmarks;  make bench-middleware  beside Cyclone DDS, roscpp, Fast DDS"
+	@echo "make bench-chain  a phone's pose on its way to the motors, in real time"
 	@echo "make asan tsan  the tests under the address and the thread sanitizer"
 	@echo "make fuzz       libFuzzer on all that reads foreign bytes, FUZZ_SECONDS=60 each"
 	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
@@ -63,6 +64,11 @@ bench-middleware: packages
 	@cmake --build --preset release --parallel $(JOBS) --target middleware_bench
 	@echo "== bench: middleware (some ten minutes; only a quiet machine gives figures worth keeping)"
 	@tests/bench/middleware/compare build/release
+
+bench-chain: build
+	@cmake --build --preset release --parallel $(JOBS) --target chain_bench
+	@echo "== bench: datagram to motor command (half a minute)"
+	@tests/bench/chain/measure build/release
 
 asan tsan: packages
 	@$(MAKE) --no-print-directory build/$@/build.ninja
