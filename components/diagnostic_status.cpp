@@ -6,7 +6,7 @@
 
 namespace swiftlet {
 
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
                const std::string& value) {
   diagnostic_msgs::msg::KeyValue entry;
   entry.key(key);
@@ -14,12 +14,13 @@ void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
   status.values().push_back(entry);
 }
 
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
                std::uint64_t value) {
   add_value(status, key, std::to_string(value));
 }
 
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key, double value) {
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
+               double value) {
   add_value(status, key, fmt::format("{:.4g}", value));
 }
 

@@ -10,11 +10,12 @@
 /// Entries of a status on `diagnostics`, which viewers show as text.
 namespace swiftlet {
 
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
                const std::string& value);
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key,
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
                std::uint64_t value);
 /// With four digits.
-void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const char* key, double value);
+void add_value(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
+               double value);
 
 }  // namespace swiftlet

@@ -7,18 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "components/diagnostic_status.hpp"
+
 namespace swiftlet {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-
-void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
-         std::string value) {
-  diagnostic_msgs::msg::KeyValue entry;
-  entry.key(key);
-  entry.value(std::move(value));
-  status.values().push_back(entry);
-}
 
 }  // namespace
 
@@ -33,23 +27,24 @@ diagnostic_msgs::msg::DiagnosticStatus PhoneReport::next(const PhoneStream& stre
     const std::uint64_t count = stream.count(verdict);
     const std::uint64_t fresh = count - std::exchange(reported_[i], count);
     (verdict == PhoneVerdict::kAccepted ? accepted : dropped) += fresh;
-    add(status, to_string(verdict), std::to_string(count));
+    add_value(status, to_string(verdict), std::to_string(count));
   }
-  add(status, "given_up", std::to_string(given_up));
-  add(status, "clock_restarts", std::to_string(clock_restarts));
+  add_value(status, "given_up", std::to_string(given_up));
+  add_value(status, "clock_restarts", std::to_string(clock_restarts));
   if (stream.phone()) {
-    add(status, "phone", to_string(*stream.phone()));
-    add(status, "clock_offset_s", fmt::format("{:.6f}", to_seconds(stream.clock().offset())));
-    add(status, "clock_drift_ppm", fmt::format("{:.1f}", 1e6 * stream.clock().skew()));
+    add_value(status, "phone", to_string(*stream.phone()));
+    add_value(status, "clock_offset_s", fmt::format("{:.6f}", to_seconds(stream.clock().offset())));
+    add_value(status, "clock_drift_ppm", fmt::format("{:.1f}", 1e6 * stream.clock().skew()));
   }
   const bool jumped = std::exchange(jumps_reported_, jumps) != jumps;
   const double remaining = stream.jumps().remaining().norm();
-  add(status, "jumps", std::to_string(jumps));
+  add_value(status, "jumps", std::to_string(jumps));
   if (jumps > 0) {
-    add(status, "last_jump_m", fmt::format("{:.3f}", last_jump.translation.norm()));
-    add(status, "last_jump_deg", fmt::format("{:.1f}", last_jump.yaw / kDegree));
-    add(status, "to_follow_m", fmt::format("{:.3f}", remaining));
-    add(status, "to_follow_deg", fmt::format("{:.1f}", stream.jumps().remaining_yaw() / kDegree));
+    add_value(status, "last_jump_m", fmt::format("{:.3f}", last_jump.translation.norm()));
+    add_value(status, "last_jump_deg", fmt::format("{:.1f}", last_jump.yaw / kDegree));
+    add_value(status, "to_follow_m", fmt::format("{:.3f}", remaining));
+    add_value(status, "to_follow_deg",
+              fmt::format("{:.1f}", stream.jumps().remaining_yaw() / kDegree));
   }
 
   const bool follows = remaining > 0.0 || stream.jumps().remaining_yaw() != 0.0;
