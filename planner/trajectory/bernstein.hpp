@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -79,9 +80,10 @@ inline constexpr int kHopefulSubdivisions = 100;
 /// Upper bound of a function on an interval by branch and bound, at most kMaximumTolerance above a
 /// value that is taken unless kMaxSubdivisions do not suffice. A Piece knows two numbers about a
 /// part of the interval, `above`, which no value exceeds, and `taken`, a value that is taken, and
-/// has `halves()`.
+/// has `halves()`. The search ends early with a bound that is no more than `good_enough`.
 template <class Piece>
-double least_upper_bound(const Piece& whole) {
+double least_upper_bound(const Piece& whole,
+                         double good_enough = -std::numeric_limits<double>::infinity()) {
   const auto less = [](const Piece& a, const Piece& b) { return a.above < b.above; };
   std::priority_queue<Piece, std::vector<Piece>, decltype(less)> pieces(less);
   pieces.push(whole);
@@ -89,6 +91,7 @@ double least_upper_bound(const Piece& whole) {
   for (int k = 0; k < kMaxSubdivisions; ++k) {
     const Piece top = pieces.top();
     if (top.above <= taken + kMaximumTolerance * std::abs(taken) + 1e-18) break;
+    if (top.above <= good_enough) break;
     if (k >= kHopefulSubdivisions && !std::isfinite(top.above)) break;
     pieces.pop();
     const auto [left, right] = top.halves();

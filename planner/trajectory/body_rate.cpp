@@ -66,7 +66,7 @@ double body_rate(const FlatReference& reference) {
   return std::isnan(squared) ? std::numeric_limits<double>::infinity() : std::sqrt(squared);
 }
 
-double max_body_rate(const TrajectorySegment& segment) {
+double max_body_rate(const TrajectorySegment& segment, double good_enough) {
   const double T = segment.duration_s;
   RatePiece::Matrix power;
   for (int axis = kX; axis <= kZ; ++axis) {
@@ -77,7 +77,7 @@ double max_body_rate(const TrajectorySegment& segment) {
   power(0, kForce + 2) += kGravity;
   power.col(kYawAngle) = segment.coefficients[kYaw];
   power.col(kYawRate) = differentiate(segment.coefficients[kYaw]) / T;
-  return std::sqrt(least_upper_bound(RatePiece(to_bernstein(power))));
+  return std::sqrt(least_upper_bound(RatePiece(to_bernstein(power)), good_enough * good_enough));
 }
 
 }  // namespace swiftlet

@@ -26,8 +26,8 @@ namespace swiftlet {
 double body_rate(const FlatReference& reference);
 
 /// Upper bound [rad/s] of the body rate on a segment, true at every moment and at most 1e-6
-/// (relative) above a rate that is reached. Infinite where the thrust may vanish or point along the
-/// heading.
-double max_body_rate(const TrajectorySegment& segment);
+/// (relative) above a rate that is reached, or at most `good_enough`. Infinite where the thrust may
+/// vanish or point along the heading.
+double max_body_rate(const TrajectorySegment& segment, double good_enough = 0.0);
 
 }  // namespace swiftlet

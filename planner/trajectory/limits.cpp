@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "planner/trajectory/body_rate.hpp"
 
@@ -218,13 +219,19 @@ Status within(const TrajectorySegment& segment, const TrajectoryLimits& limits) 
 }
 
 double needed_stretch(const TrajectorySegment& segment, const TrajectoryLimits& limits) {
-  const TrajectoryExtrema found = find(segment, limited(limits));
+  Wanted wanted = limited(limits);
+  const bool body_rate = std::exchange(wanted.body_rate, false);
+  TrajectoryExtrema found = find(segment, wanted);
   const Usage u = usages(found, limits);
   // Velocities go with 1 / time, acceleration and the thrust for it with the square, and the part
   // of the body rate that turns the thrust with the cube.
-  const double stretch =
-      std::max({u.speed, std::sqrt(u.acceleration), thrust_stretch(segment, u, limits),
-                std::cbrt(u.body_rate), u.yaw_rate, kLeastStretch});
+  double stretch = std::max({u.speed, std::sqrt(u.acceleration), thrust_stretch(segment, u, limits),
+                             u.yaw_rate, kLeastStretch});
+  if (body_rate) {
+    // The dearest comes last, and only as well as it matters beside the others.
+    found.max_body_rate = max_body_rate(segment, std::pow(stretch, 3) * limits.max_body_rate);
+    stretch = std::max(stretch, std::cbrt(found.max_body_rate / limits.max_body_rate));
+  }
   // Quotients are rounded.
   return keeps(found, limits) ? std::min(stretch, 1.0)
                               : std::clamp(stretch, 1.0 + std::numeric_limits<double>::epsilon(),
