@@ -10,6 +10,7 @@
 #include "components/experiments/euroc.hpp"
 #include "components/experiments/flight_errors.hpp"
 #include "components/experiments/motion_log.hpp"
+#include "components/experiments/seed_000.hpp"
 #include "components/experiments/shared_file.hpp"
 #include "components/sim/sensors/phone_pose.hpp"
 #include "estimation/ukf/delayed_ukf.hpp"
@@ -18,11 +19,11 @@ namespace swiftlet {
 namespace {
 
 using Eigen::Vector3d;
+using seed_000::kAxes;
+using seed_000::kFilterVelocity;
 
 /// Until the filter has found the biases of an IMU that it knows nothing of [s].
 constexpr double kSettle_s = 10.0;
-constexpr const char* kAxes[] = {"x", "y", "z"};
-const Vector3d kFilterVelocity(0.0651, 0.0533, 0.0788);  // Table 3 of seed 000 [m/s]
 constexpr std::size_t kImuColumns = 7;
 
 struct ImuRecord {

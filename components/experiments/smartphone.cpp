@@ -9,6 +9,7 @@
 
 #include "components/experiments/flight_errors.hpp"
 #include "components/experiments/reference_flight.hpp"
+#include "components/experiments/seed_000.hpp"
 #include "components/experiments/shared_file.hpp"
 #include "components/experiments/smartphone_figures.hpp"
 #include "components/sim/scenario.hpp"
@@ -19,20 +20,11 @@
 namespace swiftlet {
 namespace {
 
+using namespace seed_000;
 using Eigen::Vector3d;
 
-constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr double kClimb_s = 5.0;  // "after the taking-off phase (the first 5 s)"
 constexpr double kRest_s = 3.0;   // before the take-off, see reference_flight.cpp
-
-// What the paper measured.
-const Vector3d kPhonePosition(0.0165, 0.0320, 0.0274);     // Table 2 [m]
-const Vector3d kFilterPosition(0.0195, 0.0296, 0.0299);    // Table 2 [m]
-constexpr double kPhonePsi = 0.0627, kFilterPsi = 0.091;   // Table 2
-const Vector3d kFilterVelocity(0.0651, 0.0533, 0.0788);    // Table 3 [m/s]
-const Vector3d kPhoneTracking(0.0593, 0.0719, 0.0122);     // Table 4 [m]
-const Vector3d kPositionTracking(0.0565, 0.0657, 0.0125);  // Table 4 [m]
-const Vector3d kVelocityTracking(0.0626, 0.0833, 0.0214);  // Table 5 [m/s]
 
 /// Rows for x, y and z, of which each run adds one value.
 class AxisRows {

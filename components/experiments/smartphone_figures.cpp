@@ -6,14 +6,13 @@
 
 #include <string>
 
+#include "components/experiments/seed_000.hpp"
 #include "components/plot/figure.hpp"
 
 namespace swiftlet {
 namespace {
 
-using Eigen::Vector3d;
-
-constexpr const char* kAxes[] = {"x", "y", "z"};
+using seed_000::kAxes;
 
 /// One number of each moment from `from_s` to `to_s`, over the time since `from_s`.
 struct Curve {
