@@ -7,6 +7,7 @@
 
 #include "components/cli/verbs.hpp"
 #include "components/runtime/command_line.hpp"
+#include "components/runtime/execution/real_time.hpp"
 
 namespace swiftlet {
 namespace {
@@ -15,9 +16,25 @@ struct RunOptions {
   std::vector<std::string> components;
   std::string scenario;
   int standby = 0;
+  int real_time_priority = 0;  // 0: not asked for
   ParameterOptions parameters;
   NetworkOptions network;
 };
+
+/// Says what was granted; where it was refused the components run nevertheless.
+void enter_real_time(int priority) {
+  const RealTimeGrant grant = ask_for_real_time(priority);
+  if (grant.scheduling.ok()) {
+    logger("run")->info("real time: SCHED_FIFO, priority {}", priority);
+  } else {
+    logger("run")->warn("real time: {}", grant.scheduling.error().reason);
+  }
+  if (grant.memory.ok()) {
+    logger("run")->info("real time: memory is locked");
+  } else {
+    logger("run")->warn("real time: {}", grant.memory.error().reason);
+  }
+}
 
 int run(const RunOptions& options) {
   std::set<std::string> named;
@@ -28,6 +45,7 @@ int run(const RunOptions& options) {
     }
   }
   Config parameters = options.parameters.load();
+  if (options.real_time_priority > 0) enter_real_time(options.real_time_priority);
   HostOptions host_options =
       options.network.host_options(fmt::format("{}", fmt::join(options.components, "+")));
   host_options.standby = options.standby;
@@ -60,6 +78,10 @@ void add_run(CLI::App& app) {
           "Place in the line of succession: 0 comes first; 1 and above wait, hear everything "
           "and take over when the active instance falls silent")
       ->check(CLI::Range(0, 9));
+  verb->add_option("--rt", options->real_time_priority,
+                   "Ask for real time: SCHED_FIFO with this priority, and locked memory; the log "
+                   "says what was granted")
+      ->check(CLI::Range(1, 99));
   options->parameters.add_to(*verb);
   options->network.add_to(*verb);
   verb->callback([options] {
