@@ -3,8 +3,6 @@
 #include "components/runtime/dds/plausible_sequence.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <string_view>
 
 namespace swiftlet {
 namespace {
@@ -15,11 +13,9 @@ constexpr std::size_t kEntries = 4096;
 
 PlausibleSequence::PlausibleSequence() : entries_(kEntries) {}
 
-bool PlausibleSequence::accept(const Guid& writer, std::uint64_t number) {
-  const std::string_view key(reinterpret_cast<const char*>(writer.data()), writer.size());
-  const std::size_t place = std::hash<std::string_view>()(key) % kEntries;
+bool PlausibleSequence::accept(const WriterGuid& writer, std::uint64_t number) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Entry& entry = entries_[place];
+  Entry& entry = entries_[place_of(writer, kEntries)];
   if (entry.writer != writer) entry = {writer, number, 0, 0};
   if (number <= entry.highest + kWindow) {
     entry.highest = std::max(entry.highest, number);

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <mutex>
 #include <vector>
+
+#include "components/runtime/dds/writer_guid.hpp"
 
 namespace swiftlet {
 
@@ -15,8 +16,6 @@ namespace swiftlet {
 /// thread.
 class PlausibleSequence {
  public:
-  using Guid = std::array<std::uint8_t, 16>;
-
   /// How far ahead a number may be: a quarter of an hour at 1 kHz.
   static constexpr std::uint64_t kWindow = 1U << 20;
   /// So many in a row that agree are believed, wherever they are.
@@ -24,11 +23,11 @@ class PlausibleSequence {
 
   PlausibleSequence();
   /// Whether `number` of the writer is to be believed. The first of a writer is.
-  bool accept(const Guid& writer, std::uint64_t number);
+  bool accept(const WriterGuid& writer, std::uint64_t number);
 
  private:
   struct Entry {
-    Guid writer{};
+    WriterGuid writer{};
     std::uint64_t highest = 0;  ///< that was believed
     std::uint64_t refused = 0;  ///< the last that was not
     int agreeing = 0;           ///< refused in a row, one near the other

@@ -212,17 +212,19 @@ const char* check(std::uint8_t id, std::uint8_t flags, const Body& body) {
 struct Claim {
   const std::uint8_t* writer = nullptr;  ///< entity; null: nothing is said
   std::uint64_t number = 0;              ///< that the writer has got to
+  std::uint32_t size = 0;                ///< of the sample with that number; 0: nothing is said
 };
 
 Claim claim_of(std::uint8_t id, const Body& body) {
   switch (id) {
     case kData:
+      return {body.at(8), body.sequence_number(12), 0};
     case kDataFragment:
-      return {body.at(8), body.sequence_number(12)};
+      return {body.at(8), body.sequence_number(12), body.word(28)};
     case kHeartbeat:
-      return {body.at(4), body.sequence_number(16)};
+      return {body.at(4), body.sequence_number(16), 0};
     case kGap:
-      return {body.at(4), body.sequence_number(16)};
+      return {body.at(4), body.sequence_number(16), 0};
     default:
       return {};
   }
@@ -239,7 +241,7 @@ RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t si
     return verdict;
   };
   const bool from_eprosima = datagram[6] == 0x01 && datagram[7] == 0x0f;
-  PlausibleSequence::Guid writer;
+  WriterGuid writer;
   std::copy_n(datagram + 8, kPrefix, writer.begin());
   for (std::size_t place = kHeader; place < size;) {
     const std::size_t begin = place;
@@ -260,6 +262,9 @@ RtpsGuard::Verdict RtpsGuard::judge(const std::uint8_t* datagram, std::size_t si
     if (const Claim claim = claim_of(id, body); claim.writer != nullptr) {
       std::copy_n(claim.writer, writer.size() - kPrefix, writer.begin() + kPrefix);
       if (!numbers_.accept(writer, claim.number)) return {"a sequence number that is far ahead"};
+      if (!sizes_.accept(writer, claim.number, claim.size)) {
+        return {"a DATA_FRAG of a sample that is larger than any before"};
+      }
     }
     verdict.has_fragments = verdict.has_fragments || id == kDataFragment;
     if (is_last) break;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "components/runtime/dds/plausible_sequence.hpp"
+#include "components/runtime/dds/plausible_size.hpp"
 
 namespace swiftlet {
 
@@ -38,6 +39,7 @@ class RtpsGuard {
 
  private:
   PlausibleSequence numbers_;
+  PlausibleSize sizes_;
 };
 
 }  // namespace swiftlet

@@ -302,7 +302,7 @@ TEST(RtpsGuard, StatisticsOfFastDdsStandAtTheEnd) {
 
 TEST(PlausibleSequence, ANumberFarAheadIsBelievedWhenManyInARowAgree) {
   PlausibleSequence watch;
-  const PlausibleSequence::Guid writer{1, 2, 3};
+  const WriterGuid writer{1, 2, 3};
   constexpr std::uint64_t kFar = PlausibleSequence::kWindow * 100;
   EXPECT_TRUE(watch.accept(writer, 5));
   EXPECT_TRUE(watch.accept(writer, 5 + PlausibleSequence::kWindow));
@@ -319,6 +319,39 @@ TEST(PlausibleSequence, ANumberFarAheadIsBelievedWhenManyInARowAgree) {
   for (std::uint64_t i = 0; i < 100 && !watch.accept(writer, kFar + i); ++i) ++refused;
   EXPECT_EQ(refused, PlausibleSequence::kAgreeing - 1);
   EXPECT_TRUE(watch.accept(writer, kFar + 1000));
+}
+
+TEST(PlausibleSize, ALargeSampleIsBelievedWhenItsFragmentsAgree) {
+  PlausibleSize watch;
+  const WriterGuid writer{1, 2, 3};
+  constexpr std::uint32_t kLarge = 3 * PlausibleSize::kAlwaysBelieved;
+  EXPECT_TRUE(watch.accept(writer, 1, PlausibleSize::kAlwaysBelieved));
+  // Now and then a damaged one, of another sample or with another size, never is ...
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    EXPECT_FALSE(watch.accept(writer, i, kLarge));
+    EXPECT_FALSE(watch.accept(writer, i, kLarge + 1));
+    EXPECT_TRUE(watch.accept(writer, i, 1000));
+  }
+  // ... a sample whose fragments all say so is, and with it the next ones of its writer ...
+  int refused = 0;
+  while (refused < 100 && !watch.accept(writer, 2000, kLarge)) ++refused;
+  EXPECT_EQ(refused, PlausibleSize::kAgreeing - 1);
+  EXPECT_TRUE(watch.accept(writer, 2001, kLarge));
+  EXPECT_TRUE(watch.accept(writer, 2002, kLarge + kLarge / 2)) << "images differ in size";
+  // ... but not those of another writer.
+  EXPECT_FALSE(watch.accept({4, 5, 6}, 2003, kLarge));
+}
+
+TEST(RtpsGuard, ASingleFragmentCannotClaimMuchMemory) {
+  RtpsGuard guard;
+  const auto problem = [&guard](const Datagram& datagram) {
+    return guard.judge(datagram.bytes().data(), datagram.bytes().size()).problem;
+  };
+  constexpr std::uint32_t kLarge = PlausibleSize::kAlwaysBelieved + 1;
+  EXPECT_EQ(problem(fragment({1, 1, 8, PlausibleSize::kAlwaysBelieved, 8})), nullptr);
+  EXPECT_THAT(problem(fragment({1, 1, 8, kLarge, 8})), HasSubstr("larger than any before"));
+  for (int i = 2; i < PlausibleSize::kAgreeing; ++i) (void)problem(fragment({1, 1, 8, kLarge, 8}));
+  EXPECT_EQ(problem(fragment({1, 1, 8, kLarge, 8})), nullptr);
 }
 
 }  // namespace
