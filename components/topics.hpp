@@ -36,6 +36,11 @@ inline constexpr Topic<tf2_msgs::msg::TFMessage> tf{"tf", qos::state};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> tf_static{"tf_static",
                                                            qos::keeping(qos::map, 100)};
 inline constexpr Topic<nav_msgs::msg::OccupancyGrid> map{"map", qos::map, 200ms};
+/// Of the body, by scans and map.
+inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> lidar_pose{"lidar/pose",
+                                                                                 qos::sensor};
+/// All of these poses, as they are known by now.
+inline constexpr Topic<nav_msgs::msg::Path> lidar_path{"lidar/path", qos::map};
 
 // Where it goes.
 inline constexpr Topic<swiftlet_msgs::msg::ModeCommand> mode{"mode", qos::command};
@@ -74,6 +79,8 @@ inline constexpr const char* names[] = {clock.name,
                                         tf.name,
                                         tf_static.name,
                                         map.name,
+                                        lidar_pose.name,
+                                        lidar_path.name,
                                         mode.name,
                                         waypoints.name,
                                         goal_pose.name,

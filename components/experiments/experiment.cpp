@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/experiments/euroc.hpp"
+#include "components/experiments/slam_benchmark.hpp"
 #include "components/experiments/smartphone.hpp"
 
 namespace swiftlet {
@@ -62,6 +63,8 @@ const std::vector<Experiment>& experiments() {
       {"euroc-filter", "the filter on a real IMU, with poses as good as seed 000's", true,
        run_euroc_filter},
       {"euroc-flights", "real flights as references in simulation", true, run_euroc_flights},
+      {"slam-benchmark", "the mapper on real logs, scored by relations that people verified", true,
+       run_slam_benchmark},
   };
   return all;
 }

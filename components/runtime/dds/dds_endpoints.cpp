@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/runtime/dds/dds_endpoints.hpp"
 
+#include <fmt/format.h>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
 #include <algorithm>
 #include <atomic>
+#include <string>
 
 #include "components/runtime/dds/endpoint_qos.hpp"
 #include "components/runtime/dds/wire_type.hpp"
+#include "components/runtime/execution/stuck_watch.hpp"
 #include "components/runtime/log.hpp"
 
 namespace swiftlet {
@@ -32,6 +35,7 @@ class DdsWriter : public Writer {
       : factory_(std::move(factory)),
         type_(spec.message_type),
         component_(spec.component),
+        what_(fmt::format("writing '{}'", spec.topic)),
         writer_(factory_->make_writer(spec)) {}
   ~DdsWriter() override { factory_->remove(writer_); }
 
@@ -39,13 +43,13 @@ class DdsWriter : public Writer {
     WireSample sample;
     sample.type = type_;
     sample.message = message;
-    note(writer_->write(&sample));
+    note(send(&sample));
   }
 
   void write(const Cdr& cdr) override {
     WireSample sample;
     sample.cdr = &cdr;
-    note(writer_->write(&sample));
+    note(send(&sample));
   }
 
   void* loan() override {
@@ -54,19 +58,25 @@ class DdsWriter : public Writer {
     return lent ? sample : nullptr;
   }
   void write_loan(void* sample) override {
-    const bool sent = writer_->write(sample);
+    const bool sent = send(sample);
     if (!sent) writer_->discard_loan(sample);
     note(sent);
   }
   void discard_loan(void* sample) override { writer_->discard_loan(sample); }
 
   int matched_readers() const override {
+    const StuckWatch::Inside inside(what_.c_str());
     dds::PublicationMatchedStatus status;
     writer_->get_publication_matched_status(status);
     return status.current_count;
   }
 
  private:
+  bool send(void* sample) {
+    const StuckWatch::Inside inside(what_.c_str());
+    return writer_->write(sample);
+  }
+
   void note(bool sent) {
     if (sent || !is_worth_a_line(++unsent_)) return;
     logger(component_)
@@ -79,6 +89,7 @@ class DdsWriter : public Writer {
   std::shared_ptr<EndpointFactory> factory_;
   const MessageType* type_;
   std::string component_;
+  std::string what_;  // as StuckWatch says it
   std::uint64_t unsent_ = 0;
   dds::DataWriter* writer_;
 };
@@ -90,6 +101,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
       : factory_(std::move(factory)),
         type_(spec.message_type),
         component_(spec.component),
+        what_(fmt::format("reading '{}'", spec.topic)),
         on_sample_(std::move(on_sample)),
         reader_(factory_->make_reader(spec, this)) {}
   ~DdsReader() override { factory_->remove(reader_); }
@@ -129,6 +141,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
   int depth() const override { return profile_of(reader_->get_qos(), {}).depth; }
 
   int matched_writers() const override {
+    const StuckWatch::Inside inside(what_.c_str());
     dds::SubscriptionMatchedStatus status;
     reader_->get_subscription_matched_status(status);
     return status.current_count;
@@ -138,6 +151,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
 
  private:
   bool take(WireSample& sample, SampleOrigin* origin) {
+    const StuckWatch::Inside inside(what_.c_str());
     dds::SampleInfo info;
     // A sample without data says that a writer is gone; the next may have some.
     while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
@@ -174,6 +188,7 @@ class DdsReader : public Reader, private dds::DataReaderListener {
   std::shared_ptr<EndpointFactory> factory_;
   const MessageType* type_;
   std::string component_;
+  std::string what_;  // as StuckWatch says it
   std::function<void()> on_sample_;
   std::atomic<std::uint64_t> lost_{0};
   std::atomic<std::uint64_t> overwritten_{0};

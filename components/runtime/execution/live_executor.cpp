@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -13,6 +14,7 @@
 
 #include "components/runtime/execution/executor.hpp"
 #include "components/runtime/execution/signals.hpp"
+#include "components/runtime/execution/stuck_watch.hpp"
 #include "components/runtime/execution/timers.hpp"
 #include "components/runtime/log.hpp"
 
@@ -69,6 +71,22 @@ class AtOnceRight {
   bool granted_;
 };
 
+/// How often the main thread looks around, and how often it sees a thread in the same call until
+/// that call is taken for one that never ends: five seconds. Calls block for a tenth of one at
+/// most.
+constexpr auto kLook = std::chrono::milliseconds(20);
+constexpr int kLooksUntilStuck = 250;
+constexpr int kStuckExitCode = 70;  // EX_SOFTWARE
+
+/// Nothing is put in order: what would be is what does not come back.
+[[noreturn]] void end_stuck(const std::string& what) {
+  const Logger log = logger("executor");
+  log->critical("stuck in {} for good: this process ends, so that another can take its place",
+                what);
+  log->flush();
+  std::_Exit(kStuckExitCode);
+}
+
 /// A callback that holds up the middleware for longer than that is named in the log.
 constexpr auto kShort = std::chrono::milliseconds(1);
 
@@ -96,11 +114,13 @@ class LiveExecutor : public Executor {
   int run() override {
     for (LiveMailbox* mailbox : mailboxes_) mailbox->start();
     int exit_code = 0;
+    StuckWatch stuck_watch;
     {
       std::unique_lock<std::mutex> lock(mutex_);
       // A signal handler cannot notify, so look for one now and then.
       while (!exit_code_ && !signals_.received()) {
-        changed_.wait_for(lock, std::chrono::milliseconds(20));
+        changed_.wait_for(lock, kLook);
+        if (const auto what = stuck_watch.inside_since(kLooksUntilStuck)) end_stuck(*what);
       }
       exit_code = exit_code_.value_or(0);
     }

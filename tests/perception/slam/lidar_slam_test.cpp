@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "perception/slam/lidar_slam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/perception/slam/floor_plan.hpp"
+
+namespace swiftlet::test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kRate_hz = 4.5;
+constexpr double kSpeed = 0.6;  // [m/s]
+
+Time at(double seconds) {
+  return Time{} + from_seconds(seconds);
+}
+
+/// The way around the block, turning on the spot at its corners, `rounds` times.
+std::vector<Pose2> way_around(double rounds) {
+  const std::vector<Vector2d> corners{{1.5, 1.5}, {22.3, 1.6}, {22.2, 12.4}, {1.7, 12.3}};
+  std::vector<Pose2> way;
+  const double step = kSpeed / kRate_hz, turn = 0.8 / kRate_hz;
+  double yaw = 0.0;
+  const int legs = static_cast<int>(std::lround(4 * rounds));
+  for (int leg = 0; leg < legs; ++leg) {
+    const Vector2d from = corners[static_cast<std::size_t>(leg % 4)];
+    const Vector2d to = corners[static_cast<std::size_t>((leg + 1) % 4)];
+    const double heading = std::atan2((to - from).y(), (to - from).x());
+    for (; std::abs(wrap_angle(heading - yaw)) > turn; yaw = wrap_angle(yaw + turn)) {
+      way.push_back({from, yaw});
+    }
+    yaw = heading;
+    const double length = (to - from).norm();
+    for (double d = 0.0; d < length; d += step) {
+      way.push_back({from + (to - from) * (d / length), yaw});
+    }
+  }
+  return way;
+}
+
+/// Drives along the poses of `way`; the back end hears of each job and answers `late` scans later.
+class Drive {
+ public:
+  explicit Drive(unsigned seed) : random_(seed) {}
+
+  LidarSlam::Update see(const Pose2& pose, double seconds,
+                        const std::optional<Pose2>& odometry = std::nullopt) {
+    const LaserScan scan = plan_.scan(pose, 360, field_of_view, 0.01, random_);
+    const auto update = slam.add(at(seconds), scan_points(scan), odometry);
+    truth.push_back(pose);
+    live.push_back(slam.trajectory().back().pose);
+    lost += update.lost ? 1 : 0;
+    if (!result_ && slam.has_job()) {
+      result_ = LidarSlam::run_back_end(slam.take_job());
+      due_ = truth.size() + late;
+    }
+    if (result_ && truth.size() >= due_) {
+      closures += result_->closures.size();
+      slam.apply(*result_);
+      result_.reset();
+    }
+    return update;
+  }
+  void along(const std::vector<Pose2>& way) {
+    for (const Pose2& pose : way) see(pose, static_cast<double>(truth.size()) / kRate_hz);
+  }
+
+  /// Distances between where scans were taken and where they are thought to be [m].
+  std::vector<double> errors(const std::vector<Pose2>& poses) const {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Pose2 true_pose = truth.front().inverse() * truth[i];
+      result.push_back((poses[i].position - true_pose.position).norm());
+    }
+    return result;
+  }
+  std::vector<Pose2> now() const {
+    std::vector<Pose2> poses;
+    for (const auto& timed : slam.trajectory()) poses.push_back(timed.pose);
+    return poses;
+  }
+
+  LidarSlam slam;
+  double field_of_view = 1.5 * M_PI;
+  std::size_t late = 0;
+  std::vector<Pose2> truth, live;
+  int lost = 0;
+  std::size_t closures = 0;
+
+ private:
+  FloorPlan plan_ = office_floor();
+  std::mt19937 random_;
+  std::optional<LidarSlam::BackEndResult> result_;
+  std::size_t due_ = 0;
+};
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+TEST(LidarSlam, WithoutOdometryItGoesAroundTheBlockAndKnowsWhereItBegan) {
+  Drive drive(1);
+  drive.along(way_around(1.3));
+  EXPECT_EQ(drive.lost, 0);
+  EXPECT_GT(drive.closures, 3u);
+  EXPECT_LT(largest(drive.errors(drive.live)), 0.5);
+  EXPECT_LT(mean(drive.errors(drive.now())), 0.05);
+  drive.slam.refine();
+  EXPECT_LT(mean(drive.errors(drive.now())), 0.03);
+  EXPECT_LT(largest(drive.errors(drive.now())), 0.08);
+}
+
+TEST(LidarSlam, ABackEndThatIsLateGivesTheSameMap) {
+  Drive drive(2);
+  drive.late = 40;  // nine seconds
+  drive.along(way_around(1.5));
+  EXPECT_GT(drive.closures, 3u);
+  EXPECT_LT(mean(drive.errors(drive.now())), 0.06);
+}
+
+TEST(LidarSlam, TheSameScansGiveTheSamePosesBitForBit) {
+  std::vector<std::vector<Pose2>> poses;
+  for (int run = 0; run < 2; ++run) {
+    Drive drive(3);
+    drive.along(way_around(1.1));
+    poses.push_back(drive.now());
+  }
+  ASSERT_EQ(poses[0].size(), poses[1].size());
+  for (std::size_t i = 0; i < poses[0].size(); ++i) {
+    EXPECT_EQ(poses[0][i].vector(), poses[1][i].vector()) << i;
+  }
+}
+
+TEST(LidarSlam, AfterAGapItFindsItselfInItsOwnMap) {
+  Drive drive(4);
+  drive.field_of_view = M_PI;
+  drive.along(way_around(1.0));
+  const double seconds = static_cast<double>(drive.truth.size()) / kRate_hz;
+  // Eight seconds later, 2.5 m on, looking back.
+  const Pose2 elsewhere{{4.0, 1.4}, 2.6};
+  const auto update = drive.see(elsewhere, seconds + 8.0);
+  EXPECT_FALSE(update.lost);
+  const Pose2 expected = drive.truth.front().inverse() * elsewhere;
+  EXPECT_LT((update.pose.position - expected.position).norm(), 0.5);
+  EXPECT_NEAR(wrap_angle(update.pose.yaw - expected.yaw), 0.0, 0.05);
+}
+
+TEST(LidarSlam, OdometryIsFollowedWhereThereIsNothingToSee) {
+  LidarSlam slam;
+  Pose2 odometry;
+  EXPECT_FALSE(slam.add(at(0), {}, odometry).lost);
+  odometry = {{1.0, 0.0}, 0.1};
+  const auto update = slam.add(at(1), {}, odometry);
+  EXPECT_TRUE(update.lost);
+  EXPECT_EQ(update.pose.vector(), odometry.vector());
+  EXPECT_GT(update.covariance(0, 0), 1e-4);
+  // And without it, there is no better guess than the last pose.
+  const auto blind = slam.add(at(2), {});
+  EXPECT_TRUE(blind.lost);
+  EXPECT_EQ(blind.pose.vector(), odometry.vector());
+  EXPECT_GT(blind.covariance(0, 0), update.covariance(0, 0));
+}
+
+TEST(LidarSlam, OdometryThatDriftsIsPutRight) {
+  Drive drive(5);
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  Pose2 odometry;
+  const std::vector<Pose2> way = way_around(1.2);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (i > 0) {
+      Pose2 moved = way[i - 1].inverse() * way[i];
+      moved.position *= 1.03;
+      moved.yaw += 0.004 + 0.003 * normal(random);
+      odometry = odometry * moved;
+    }
+    drive.see(way[i], static_cast<double>(i) / kRate_hz, odometry);
+  }
+  const Pose2 end = way.front().inverse() * way.back();
+  ASSERT_GT((odometry.position - end.position).norm(), 2.0);
+  EXPECT_LT(mean(drive.errors(drive.now())), 0.05);
+}
+
+TEST(LidarSlam, ACorridorIsUncertainAlongItsAxis) {
+  FloorPlan corridor;
+  corridor.add_wall({-200, -1.2}, {200, -1.2});
+  corridor.add_wall({-200, 1.2}, {200, 1.2});
+  std::mt19937 random(7);
+  LidarSlam slam;
+  LidarSlam::Update update;
+  for (int i = 0; i < 10; ++i) {
+    const LaserScan scan = corridor.scan({{0.1 * i, 0.0}, 0.0}, 360, M_PI, 0.01, random);
+    update = slam.add(at(0.2 * i), scan_points(scan));
+  }
+  EXPECT_GT(update.covariance(0, 0), 100.0 * update.covariance(1, 1));
+  EXPECT_LT(update.covariance(1, 1), 1e-3);
+}
+
+}  // namespace
+}  // namespace swiftlet::test
