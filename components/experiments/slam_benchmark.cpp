@@ -16,6 +16,7 @@
 #include "components/bag/recording.hpp"
 #include "components/conversions.hpp"
 #include "components/experiments/laser_logs.hpp"
+#include "components/experiments/odometry_times.hpp"
 #include "components/lidar_mapper/map_keeper.hpp"
 #include "components/replay/replay_components.hpp"
 #include "components/runtime/host.hpp"
@@ -114,26 +115,26 @@ std::vector<TimedPose2> with_odometry_between(const std::vector<TimedPose2>& pos
                                               const carmen::Log& log) {
   if (log.odometry.empty() || log.corrected || poses.size() != log.scans.size()) return poses;
   std::vector<TimedPose2> result;
-  auto next = log.odometry.begin();
+  const std::vector<TimedPose2> odometry = timed_odometry(log);
+  auto next = odometry.begin();
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     result.push_back(poses[i]);
     const Pose2 begin = pose_of(log.scans[i].robot_pose),
                 end = pose_of(log.scans[i + 1].robot_pose);
-    while (next != log.odometry.end() && to_seconds(next->time) <= poses[i].t) ++next;
+    while (next != odometry.end() && next->t <= poses[i].t) ++next;
     std::vector<std::pair<TimedPose2, double>> on_the_way;  // odometry, and how far it has come
     Pose2 before = begin;
     double length = 0.0;
-    for (; next != log.odometry.end() && to_seconds(next->time) < poses[i + 1].t; ++next) {
-      const Pose2 here = pose_of(next->pose);
-      length += length_of(before.inverse() * here);
-      on_the_way.push_back({{to_seconds(next->time), begin.inverse() * here}, length});
-      before = here;
+    for (; next != odometry.end() && next->t < poses[i + 1].t; ++next) {
+      length += length_of(before.inverse() * next->pose);
+      on_the_way.push_back({{next->t, begin.inverse() * next->pose}, length});
+      before = next->pose;
     }
     length += length_of(before.inverse() * end);
     const Pose2 off = (poses[i].pose * (begin.inverse() * end)).inverse() * poses[i + 1].pose;
-    for (const auto& [odometry, so_far] : on_the_way) {
+    for (const auto& [moved, so_far] : on_the_way) {
       const double share = length > 0.0 ? so_far / length : 0.0;
-      result.push_back({odometry.t, poses[i].pose * odometry.pose * between({}, off, share)});
+      result.push_back({moved.t, poses[i].pose * moved.pose * between({}, off, share)});
     }
   }
   if (!poses.empty()) result.push_back(poses.back());

@@ -8,6 +8,7 @@
 
 #include "components/experiments/data_table.hpp"
 #include "components/experiments/laser_logs.hpp"
+#include "components/experiments/odometry_times.hpp"
 #include "components/experiments/relations.hpp"
 #include "tests/components/sim/fixture.hpp"
 #include "tests/data_folder.hpp"
@@ -129,6 +130,45 @@ TEST_F(LaserLogs, WhatIsNoLogIsNamed) {
   const auto relations = read_relations(write("d.relations", "1 2 3\n"));
   ASSERT_FALSE(relations.ok());
   EXPECT_THAT(relations.error().reason, HasSubstr("from to dx dy"));
+}
+
+/// A robot that drives straight on at 1 m/s, with odometry at 5 Hz.
+carmen::Log steady_log() {
+  carmen::Log log;
+  for (int i = 0; i < 60; ++i) {
+    carmen::Odometry odometry;
+    odometry.time = Time(std::chrono::milliseconds(200 * i));
+    odometry.pose = {0.2 * i, 0.0, 0.0};
+    odometry.line = static_cast<std::size_t>(i);
+    log.odometry.push_back(odometry);
+  }
+  return log;
+}
+
+TEST(TimedOdometry, StampsThatOnlyTellTheOrderGetTheTimeOfTheSteadyRate) {
+  carmen::Log log = steady_log();
+  // One that came 0.7 s late, and those that the logger therefore pushed on.
+  log.odometry[30].time += std::chrono::milliseconds(700);
+  for (int i = 1; i <= 3; ++i) {
+    log.odometry[static_cast<std::size_t>(30 + i)].time =
+        log.odometry[30].time + std::chrono::milliseconds(i);
+  }
+  const auto odometry = timed_odometry(log);
+  ASSERT_EQ(odometry.size(), 60u);
+  for (const TimedPose2& timed : odometry) {
+    if (std::abs(timed.pose.position.x() - 6.0) < 1e-9) continue;  // the late one: nothing tells
+    EXPECT_NEAR(timed.t, timed.pose.position.x(), 0.06);
+  }
+  EXPECT_TRUE(std::is_sorted(odometry.begin(), odometry.end(),
+                             [](const TimedPose2& a, const TimedPose2& b) { return a.t < b.t; }));
+}
+
+TEST(TimedOdometry, SoundStampsStayAsTheyAre) {
+  const auto odometry = timed_odometry(steady_log());
+  ASSERT_EQ(odometry.size(), 60u);
+  for (const TimedPose2& timed : odometry) {
+    EXPECT_NEAR(timed.t, timed.pose.position.x(), 1e-9);
+  }
 }
 
 }  // namespace
