@@ -21,6 +21,7 @@
 #include "components/replay/replay_components.hpp"
 #include "components/runtime/host.hpp"
 #include "components/topics.hpp"
+#include "estimation/geometry/so3.hpp"
 #include "perception/map_io.hpp"
 
 namespace swiftlet {
@@ -42,13 +43,9 @@ constexpr Published kPublished[] = {
 };
 constexpr double kLeastSpeed = 50.0;  // times real time, on one core
 
-double yaw_of(const geometry_msgs::msg::Quaternion& q) {
-  return std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()),
-                    1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
-}
 TimedPose2 timed(const geometry_msgs::msg::Pose& pose, const builtin_interfaces::msg::Time& stamp) {
   return {to_seconds(from_msg(stamp)),
-          {{pose.position().x(), pose.position().y()}, yaw_of(pose.orientation())}};
+          {{pose.position().x(), pose.position().y()}, yaw_of(from_msg(pose.orientation()))}};
 }
 
 /// Hears where the mapper thinks that scans were taken: at once, and in the end.

@@ -10,6 +10,7 @@
 #include "components/static_transforms.hpp"
 #include "components/topics.hpp"
 #include "estimation/geometry/pose_history.hpp"
+#include "estimation/geometry/so3.hpp"
 
 namespace swiftlet {
 namespace {
@@ -37,13 +38,9 @@ LaserScan from_msg(const sensor_msgs::msg::LaserScan& message) {
   return scan;
 }
 
-/// Yaw of an attitude, and what is left of it without.
-double yaw_of(const Eigen::Quaterniond& q) {
-  const Eigen::Vector3d x = q * Eigen::Vector3d::UnitX();
-  return std::atan2(x.y(), x.x());
-}
+/// What is left of an attitude without its yaw.
 Eigen::Quaterniond levelled(const Eigen::Quaterniond& q) {
-  return Eigen::AngleAxisd(-yaw_of(q), Eigen::Vector3d::UnitZ()) * q;
+  return from_yaw(-yaw_of(q)) * q;
 }
 Pose2 planar(const PoseHistory::Pose& pose) {
   return {pose.position.head<2>(), yaw_of(pose.attitude)};
@@ -233,8 +230,7 @@ class LidarMapper : public Component {
 
   /// Of the body, when the scanner's levelled frame is at `pose`.
   PoseHistory::Pose body_at(const Pose2& pose, const StaticTransforms::Pose& mount) const {
-    const Eigen::Quaterniond q_WL =
-        Eigen::AngleAxisd(pose.yaw, Eigen::Vector3d::UnitZ()) * motion_.q_HL;
+    const Eigen::Quaterniond q_WL = from_yaw(pose.yaw) * motion_.q_HL;
     const Eigen::Quaterniond q_WB = q_WL * mount.attitude.conjugate();
     const Eigen::Vector3d p_WL(pose.position.x(), pose.position.y(), motion_.height);
     return {p_WL - q_WB * mount.position, q_WB};
