@@ -24,6 +24,7 @@ constexpr std::size_t kMaxWaiting = 20;
 constexpr int kOutsideToWarn = 300;
 constexpr Duration kAlivePeriod = 50ms;  // large maps take their time
 constexpr Duration kPathPeriod = 1s;
+constexpr double kLongestTurn = 1.0;  // of a scanner that is to be believed [s]
 /// Variance of what a planar scanner does not see: height [m^2], roll and pitch [rad^2].
 constexpr double kUnseen = 1e6;
 
@@ -200,7 +201,7 @@ class LidarMapper : public Component {
     motion.max_height = params_.grid.max_height;
     const double seconds = static_cast<double>(message.time_increment()) *
                            static_cast<double>(message.ranges().size());
-    if (!(seconds > 0.0)) return motion;
+    if (!(seconds > 0.0 && seconds < kLongestTurn)) return motion;
     // What odometry has by now may end before the scan does.
     const Time end = std::min(poses_.newest(), stamp(message) + from_seconds(seconds));
     const auto body = poses_.at(end, from_seconds(params_.max_odometry_gap));

@@ -28,7 +28,6 @@ void SlamMapper::begin_job() {
   if (!background_.idle() || !slam_.has_job()) return;
   background_.start([job = Job{slam_.take_job(), scans_, map_}] { return work(job); },
                     [this](Outcome outcome) {
-                      closures_ += outcome.slam.closures.size();
                       slam_.apply(outcome.slam);
                       grid_ = std::move(outcome.grid);
                       begin_job();

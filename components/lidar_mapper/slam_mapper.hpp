@@ -27,7 +27,6 @@ class SlamMapper {
   /// The map as it was last drawn; empty at first.
   const OccupancyGrid& grid() const { return *grid_; }
   const LidarSlam& slam() const { return slam_; }
-  std::size_t closures() const { return closures_; }
 
  private:
   struct Job {
@@ -46,7 +45,6 @@ class SlamMapper {
   std::vector<std::shared_ptr<const LevelledScan>> scans_;  // of the keyframes
   std::shared_ptr<ScanMap> map_;                            // the background's while it works
   std::shared_ptr<const OccupancyGrid> grid_;
-  std::size_t closures_ = 0;
   BackgroundWork background_;
 };
 

@@ -24,6 +24,9 @@ constexpr int kIterations = 10;
 constexpr double kWeakReach = 6.0;    // of the whole map, when the last keyframes do not help [m]
 constexpr double kClearlyMore = 0.1;  // overlap
 
+// Beyond, and beyond what is searched for anyway, odometry has jumped and says nothing [m/s].
+constexpr double kFastest = 20.0;
+
 Matrix3d squared(const Vector3d& sigma) {
   return sigma.cwiseAbs2().asDiagonal();
 }
@@ -34,35 +37,36 @@ LidarSlam::Prediction LidarSlam::predict(Time time, const std::optional<Pose2>& 
   const ScanNode& last = scans_.back();
   const Pose2 last_pose = pose_of(last);
   Prediction prediction;
-  if (odometry && last.odometry) {
-    const Pose2 moved = last.odometry->inverse() * *odometry;
-    const double distance = moved.position.norm(), turned = std::abs(moved.yaw);
+  const double seconds = std::max(0.0, to_seconds(time - last.time));
+  const Pose2 moved = odometry && last.odometry ? last.odometry->inverse() * *odometry : Pose2{};
+  const double distance = moved.position.norm(), turned = std::abs(moved.yaw);
+  const bool jumped = !(distance < params_.max_distance + kFastest * seconds);
+  if (odometry && last.odometry && !jumped) {
     const double sigma_p =
         params_.odometry_distance + params_.odometry_distance_per_metre * distance;
     const double sigma_yaw = params_.odometry_angle + params_.odometry_angle_per_metre * distance +
                              params_.odometry_angle_per_radian * turned;
     prediction.sigma = {sigma_p, sigma_p, sigma_yaw};
     prediction.pose = last_pose * moved;
-    prediction.window = {kSearchSigmas * sigma_p, kSearchSigmas * sigma_yaw, 0.2, 0.15, 0.15};
+    prediction.window = {std::min(params_.max_distance, kSearchSigmas * sigma_p),
+                         std::min(M_PI, kSearchSigmas * sigma_yaw), 0.2, 0.15, 0.15};
     prediction.prior =
         PosePrior{prediction.pose, params_.noise.variance() * squared(prediction.sigma).inverse()};
     return prediction;
   }
-  const double seconds = std::max(0.0, to_seconds(time - last.time));
   prediction.pose = last_pose;
   if (scans_.size() > 1 && seconds < params_.max_prediction) {
     const ScanNode& before = scans_[scans_.size() - 2];
     const double whole = to_seconds(last.time - before.time);
     if (whole > 0.0 && whole < params_.max_prediction) {
-      const Pose2 moved = pose_of(before).inverse() * last_pose;
-      prediction.pose = last_pose * between(Pose2{}, moved, std::min(1.0, seconds / whole));
+      const Pose2 before_that = pose_of(before).inverse() * last_pose;
+      prediction.pose = last_pose * between(Pose2{}, before_that, std::min(1.0, seconds / whole));
     }
   }
-  const double distance =
-      std::min(params_.max_distance, kRestDistance + params_.max_speed * seconds);
+  const double reach = std::min(params_.max_distance, kRestDistance + params_.max_speed * seconds);
   const double angle = std::min(M_PI, kRestAngle + params_.max_yaw_rate * seconds);
-  prediction.window = {distance, angle, 0.3, 0.05, 0.05};
-  prediction.sigma = {0.5 * distance, 0.5 * distance, 0.5 * angle};
+  prediction.window = {reach, angle, 0.3, 0.05, 0.05};
+  prediction.sigma = {0.5 * reach, 0.5 * reach, 0.5 * angle};
   return prediction;
 }
 
@@ -104,8 +108,10 @@ std::optional<ScanMatch> LidarSlam::match(const Keyframe& scan, const Prediction
 }
 
 LidarSlam::Update LidarSlam::add(Time time, ScanPoints points,
-                                 const std::optional<Pose2>& odometry) {
+                                 const std::optional<Pose2>& given_odometry) {
   Update update;
+  std::optional<Pose2> odometry = given_odometry;
+  if (odometry && !odometry->vector().allFinite()) odometry.reset();
   Keyframe scan = make_keyframe(time, std::move(points), odometry);
   if (keyframes_.empty()) {
     update.pose = odometry.value_or(Pose2{});

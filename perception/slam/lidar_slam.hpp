@@ -61,7 +61,8 @@ class LidarSlam {
   LidarSlam() : LidarSlam(Params{}) {}
   explicit LidarSlam(const Params& params) : params_(params) {}
 
-  /// Where a scan was taken. `odometry`: the scanner's pose, as wheels or another estimate have it.
+  /// Where a scan was taken. `odometry`: the scanner's pose, as wheels or another estimate have it;
+  /// passed over where it is not finite or has jumped.
   Update add(Time time, ScanPoints points, const std::optional<Pose2>& odometry = std::nullopt);
 
   /// What the back end works on.

@@ -61,6 +61,7 @@ Surfaces returns_of(const LaserScan& scan, const ScannerMotion& motion, double m
     const double later = beam * scan.time_increment;
     const Vector2d point = motion.velocity * later +
                            Eigen::Rotation2Dd(motion.yaw_rate * later) * Vector2d(p_H.head<2>());
+    if (!point.allFinite() || point.norm() > 2.0 * max_range) continue;  // its times are nonsense
     bool start = surfaces.points.empty();
     if (!start) {
       const double turned = std::abs(scan.angle_increment) * static_cast<double>(i - last_beam);

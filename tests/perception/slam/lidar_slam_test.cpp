@@ -193,6 +193,21 @@ TEST(LidarSlam, OdometryThatDriftsIsPutRight) {
   EXPECT_LT(mean(drive.errors(drive.now())), 0.05);
 }
 
+TEST(LidarSlam, OdometryThatJumpsOrIsNoNumberIsPassedOver) {
+  for (const double jump : {50.0, 1e12, std::nan("")}) {
+    Drive drive(8);
+    const std::vector<Pose2> way = way_around(0.2);
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      Pose2 odometry = way.front().inverse() * way[i];
+      if (i == 12) odometry.position.x() += jump;
+      if (i > 12 && std::isfinite(jump)) odometry.position.x() += jump;
+      drive.see(way[i], static_cast<double>(i) / kRate_hz, odometry);
+    }
+    EXPECT_EQ(drive.lost, 0) << jump;
+    EXPECT_LT(largest(drive.errors(drive.now())), 0.1) << jump;
+  }
+}
+
 TEST(LidarSlam, ACorridorIsUncertainAlongItsAxis) {
   FloorPlan corridor;
   corridor.add_wall({-200, -1.2}, {200, -1.2});

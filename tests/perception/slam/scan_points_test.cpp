@@ -77,6 +77,20 @@ TEST(ScanPoints, WhatIsNoReturnGivesNoPoint) {
   EXPECT_FALSE(points[0].has_normal());
 }
 
+TEST(ScanPoints, NonsensicalTimesAndAnglesGiveNoPoints) {
+  std::mt19937 random(1);
+  ScannerMotion motion;
+  motion.velocity = {1.0, 0.0};
+  for (const double nonsense : {std::nan(""), std::numeric_limits<double>::infinity(), 1e12}) {
+    LaserScan scan = room().scan({}, 90, 2 * M_PI, 0.0, random);
+    scan.time_increment = nonsense;
+    EXPECT_LE(scan_points(scan, motion).size(), 1u) << "the first beam has no time";
+    scan.time_increment = 0.0;
+    scan.angle_increment = nonsense;
+    for (const SurfacePoint& p : scan_points(scan, motion)) EXPECT_TRUE(p.position.allFinite());
+  }
+}
+
 /// Distances of points to the walls of room() [m].
 double farthest_from_wall(const ScanPoints& points) {
   double farthest = 0.0;
