@@ -3,18 +3,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "perception/occupancy_grid.hpp"
 
 namespace swiftlet {
 
+/// Cells of one row, `first` and `last` included.
+struct RowSpan {
+  int y = 0;
+  int first = 0;
+  int last = 0;
+};
+
 /// Exact Euclidean distance from the centre of each cell to the centre of the nearest obstacle
-/// cell, by the two-pass lower-envelope transform, linear in the number of cells (Felzenszwalb and
+/// cell, cut off at a largest distance, by the two-pass lower-envelope transform (Felzenszwalb and
 /// Huttenlocher, Distance Transforms of Sampled Functions, 2012, section 2).
 ///
 /// A value type with the geometry of the grid that it was made from. `update` takes the grid as it
-/// is now; callers hand over every new grid and must not count on which cells are recomputed.
+/// is now and works where obstacles came or went, as far as `max_distance` around them: its cost
+/// grows with what changed. The result is the one of a new field, to the bit.
 class DistanceField {
  public:
   struct Params {
@@ -26,8 +35,11 @@ class DistanceField {
   explicit DistanceField(const Params& params);
   DistanceField(const OccupancyGrid& grid, const Params& params);
 
-  /// Makes the field that of `grid`.
+  /// Makes the field that of `grid`. Another geometry than before is a new field.
   void update(const OccupancyGrid& grid);
+  /// The cells outside of which the last update left every distance as it was. Disjoint, row by
+  /// row; all cells after a change of geometry.
+  const std::vector<RowSpan>& changed() const { return changed_; }
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -51,12 +63,23 @@ class DistanceField {
   const std::vector<float>& values() const { return distance_; }
 
  private:
+  struct ColumnSpan;
+  void start_over(const OccupancyGrid& grid);
+  bool is_obstacle(CellState state) const;
+  int reach() const;
+  std::vector<ColumnSpan> take_obstacles(const OccupancyGrid& grid);
+  std::vector<RowSpan> update_columns(const std::vector<ColumnSpan>& columns);
+  void update_rows(const std::vector<RowSpan>& spans);
+
   Params params_;
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   double resolution_ = 1.0;
   int width_ = 0;
   int height_ = 0;
+  std::vector<CellState> states_;
+  std::vector<std::int32_t> vertical_;  // cells to the nearest obstacle in the column, cut off
   std::vector<float> distance_;
+  std::vector<RowSpan> changed_;
 };
 
 }  // namespace swiftlet

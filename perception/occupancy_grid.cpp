@@ -34,6 +34,14 @@ bool is_probability(double p) {
   return p > 0.0 && p < 1.0;
 }
 
+inline CellState state_of(std::int16_t evidence, std::int16_t occupied_above,
+                          std::int16_t free_below) {
+  const bool occupied = evidence > occupied_above;
+  const bool free = evidence < free_below && evidence != OccupancyGrid::kNoEvidence;
+  const CellState known = occupied ? CellState::kOccupied : CellState::kUnknown;
+  return free ? CellState::kFree : known;
+}
+
 std::int64_t floor_to_step(std::int64_t cells, std::int64_t step) {
   return (cells >= 0 ? cells : cells - (step - 1)) / step * step;
 }
@@ -134,10 +142,15 @@ Eigen::Vector2d OccupancyGrid::center_of(Cell cell) const {
 
 CellState OccupancyGrid::state(Cell cell) const {
   if (!contains(cell)) return CellState::kUnknown;
-  const std::int16_t evidence = evidence_[index(cell)];
-  if (evidence == kNoEvidence) return CellState::kUnknown;
-  if (evidence > occupied_above_) return CellState::kOccupied;
-  return evidence < free_below_ ? CellState::kFree : CellState::kUnknown;
+  return state_of(evidence_[index(cell)], occupied_above_, free_below_);
+}
+
+void OccupancyGrid::states_of_row(int y, std::vector<CellState>& states) const {
+  states.resize(static_cast<std::size_t>(width_));
+  const std::int16_t* evidence = evidence_.data() + index({0, y});
+  const std::int16_t occupied_above = occupied_above_, free_below = free_below_;
+  CellState* state = states.data();
+  for (int x = 0; x < width_; ++x) state[x] = state_of(evidence[x], occupied_above, free_below);
 }
 
 double OccupancyGrid::probability(Cell cell) const {

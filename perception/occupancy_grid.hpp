@@ -93,6 +93,8 @@ class OccupancyGrid {
 
   /// Unknown outside of the grid.
   CellState state(Cell cell) const;
+  /// The states of row `y`, which must be inside. For those who look at every cell often.
+  void states_of_row(int y, std::vector<CellState>& states) const;
   /// That the cell is occupied; 0.5 where nothing is known.
   double probability(Cell cell) const;
   /// Log-odds in thousandths, kNoEvidence where no beam has been. Row by row from the lowest y.

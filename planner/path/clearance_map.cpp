@@ -11,47 +11,97 @@
 namespace swiftlet {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class Cells>
+Eigen::Vector2d upper_corner(const Cells& cells) {
+  return cells.origin() + cells.resolution() * Eigen::Vector2d(cells.width(), cells.height());
+}
+
+}  // namespace
+
+ClearanceMap::ClearanceMap(const PathCost& cost) : cost_(cost) {}
+
+Status ClearanceMap::check_cost() const {
+  if (cost_.radius >= 0.0 && cost_.margin >= 0.0 && std::isfinite(cost_.hard_clearance()) &&
+      cost_.clearance_weight >= 0.0 && std::isfinite(cost_.clearance_weight) &&
+      cost_.unknown_weight >= 0.0 && std::isfinite(cost_.unknown_weight) &&
+      std::isfinite(cost_.preferred_clearance)) {
+    return {};
+  }
+  return Error{"the vehicle's size, clearances or weights are negative or not finite"};
 }
 
 Result<ClearanceMap> ClearanceMap::make(const OccupancyGrid& grid, const PathCost& cost,
                                         const std::vector<Eigen::Vector2d>& reach, double border) {
-  if (grid.empty()) return Error{"there is no map to plan in yet"};
-  if (!(cost.radius >= 0.0 && cost.margin >= 0.0 && std::isfinite(cost.hard_clearance()) &&
-        cost.clearance_weight >= 0.0 && std::isfinite(cost.clearance_weight) &&
-        cost.unknown_weight >= 0.0 && std::isfinite(cost.unknown_weight) &&
-        std::isfinite(cost.preferred_clearance) && border >= 0.0)) {
-    return Error{"the vehicle's size, clearances or weights are negative or not finite"};
-  }
-  OccupancyGrid padded = grid;
-  const double edge_m = grid.resolution();
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(border);
-  const Eigen::Vector2d upper =
-      grid.origin() + edge_m * Eigen::Vector2d(grid.width() - 0.5, grid.height() - 0.5);
-  Status status = padded.cover(grid.origin() + Eigen::Vector2d::Constant(0.5 * edge_m) - margin,
-                               upper + margin);
-  for (const Eigen::Vector2d& point : reach) {
-    if (status.ok()) status = padded.cover(point - margin, point + margin);
-  }
-  if (!status) return status.error();
+  ClearanceMap map(cost);
+  if (Status status = map.update(grid, reach, border); !status) return status.error();
+  return map;
+}
 
-  ClearanceMap map;
-  map.cost_ = cost;
-  DistanceField::Params params;
-  params.unknown_is_obstacle = !cost.unknown_is_free;
-  map.field_ = DistanceField(padded, params);
-  const std::size_t cells = map.field_.values().size();
-  map.unknown_.resize(cells);
-  map.density_.resize(cells);
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      const Cell cell{x, y};
-      const bool unknown = padded.state(cell) == CellState::kUnknown;
-      map.unknown_[map.index(cell)] = unknown;
-      map.density_[map.index(cell)] = static_cast<float>(map.penalty(map.clearance(cell)) +
-                                                         (unknown ? cost.unknown_weight : 0.0));
+Status ClearanceMap::update(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach,
+                            double border) {
+  Result<OccupancyGrid> padded = pad(grid, reach, border);
+  if (!padded) {
+    *this = ClearanceMap(cost_);
+    return padded.error();
+  }
+  if (empty()) {
+    // Two cells more than what costs: interpolation, and the neighbours of a ridge.
+    known_clearance_ =
+        std::max(cost_.hard_clearance(), cost_.preferred_clearance) + 2.0 * grid.resolution();
+    DistanceField::Params params;
+    params.unknown_is_obstacle = !cost_.unknown_is_free;
+    params.max_distance = known_clearance_ + 0.5 * grid.resolution();
+    field_ = DistanceField(params);
+  }
+  field_.update(*padded);
+  unknown_.resize(field_.values().size());
+  density_.resize(field_.values().size());
+  std::vector<CellState> states;
+  std::size_t i = 0;
+  for (int y = 0; y < height(); ++y) {
+    padded->states_of_row(y, states);
+    for (int x = 0; x < width(); ++x, ++i) {
+      const bool unknown = states[static_cast<std::size_t>(x)] == CellState::kUnknown;
+      if (unknown == (unknown_[i] != 0)) continue;
+      unknown_[i] = unknown;
+      set_density({x, y});
     }
   }
-  return map;
+  for (const RowSpan& span : field_.changed()) {
+    for (int x = span.first; x <= span.last; ++x) set_density({x, span.y});
+  }
+  return {};
+}
+
+/// The grid with a border, and all that belonged to the map before.
+Result<OccupancyGrid> ClearanceMap::pad(const OccupancyGrid& grid,
+                                        const std::vector<Eigen::Vector2d>& reach,
+                                        double border) const {
+  if (grid.empty()) return Error{"there is no map to plan in yet"};
+  if (Status status = check_cost(); !status) return status.error();
+  if (!(border >= 0.0)) return Error{"the border around a map is negative or not finite"};
+  OccupancyGrid padded = grid;
+  const double half = 0.5 * grid.resolution();
+  const auto around = [&](const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double by) {
+    return padded.cover(lower - Eigen::Vector2d::Constant(by),
+                        upper + Eigen::Vector2d::Constant(by));
+  };
+  Status status = around(grid.origin(), upper_corner(grid), border - half);
+  for (const Eigen::Vector2d& point : reach) {
+    if (status.ok()) status = around(point, point, border);
+  }
+  if (!status) return status.error();
+  // Another grid, far away, need not go together with this one.
+  if (!empty() && resolution() == grid.resolution()) {
+    (void)around(origin(), upper_corner(field_), -half);
+  }
+  return padded;
+}
+
+void ClearanceMap::set_density(Cell cell) {
+  const double unknown = unknown_[index(cell)] != 0 ? cost_.unknown_weight : 0.0;
+  density_[index(cell)] = static_cast<float>(penalty(clearance(cell)) + unknown);
 }
 
 double ClearanceMap::penalty(double clearance) const {

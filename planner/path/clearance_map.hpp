@@ -30,14 +30,25 @@ struct PathCost {
 /// it, so that goals beyond the map can be planned to.
 ///
 /// Clearance is the bilinear distance between centres less half a cell, the distance to the face of
-/// the nearest obstacle cell. It can be up to 0.21 cells too large beside a single corner.
+/// the nearest obstacle cell. It can be up to 0.21 cells too large beside a single corner. Beyond
+/// `known_clearance()`, which is above all that costs, it is cut off there: so an update needs to
+/// look only so far around what changed.
 class ClearanceMap {
  public:
   /// An empty map: no place in it.
   ClearanceMap() = default;
 
-  /// Fails on an empty grid, on points that are not finite, and where grid and points together
-  /// would need more cells than the grid's `max_cells`.
+  /// A map without a place in it, to be updated. `reach` and `border` as in `update`.
+  explicit ClearanceMap(const PathCost& cost);
+
+  /// Makes the map that of `grid`, with `border` metres of unknown space around it and around the
+  /// points of `reach`. Its cost grows with what changed since the last update, but for one look at
+  /// each cell; the area never shrinks, so that points under way do not make it a new one. Fails on
+  /// an empty grid, on points that are not finite, and where grid and points together would need
+  /// more cells than the grid's `max_cells`; the map is empty then.
+  Status update(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach = {},
+                double border = 0.0);
+  /// A new map, updated once.
   static Result<ClearanceMap> make(const OccupancyGrid& grid, const PathCost& cost,
                                    const std::vector<Eigen::Vector2d>& reach = {},
                                    double border = 0.0);
@@ -59,6 +70,8 @@ class ClearanceMap {
            static_cast<std::size_t>(cell.x);
   }
 
+  /// What clearance is cut off at [m].
+  double known_clearance() const { return known_clearance_; }
   /// [m]. The cell must be inside.
   double clearance(Cell cell) const { return field_.distance(cell) - 0.5 * resolution(); }
   /// [m]. Negative outside of the map and at a point that is not finite.
@@ -77,7 +90,13 @@ class ClearanceMap {
  private:
   double penalty(double clearance) const;
 
+  Status check_cost() const;
+  Result<OccupancyGrid> pad(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach,
+                            double border) const;
+  void set_density(Cell cell);
+
   PathCost cost_;
+  double known_clearance_ = 0.0;
   DistanceField field_;
   std::vector<std::uint8_t> unknown_;
   std::vector<float> density_;

@@ -24,16 +24,16 @@ bool is_sound(const RigidBodyState& state) {
 struct Replanner::Situation {
   FlatReference start;  // of a new trajectory
   Time start_time{};
-  bool under_way = false;  // on a trajectory, which has not ended
-  bool to_goal = false;    // it leads to the goal
-  std::optional<ClearanceMap> map;
-  std::string map_problem;
+  bool under_way = false;        // on a trajectory, which has not ended
+  bool to_goal = false;          // it leads to the goal
+  std::string map_problem;       // why there is none
   std::optional<Time> conflict;  // of what is flown with the map
   double speed = 0.0;            // now [m/s]
 };
 
 Replanner::Replanner() : Replanner(Params{}) {}
-Replanner::Replanner(const Params& params) : params_(params), planner_(params.trajectory) {}
+Replanner::Replanner(const Params& params)
+    : params_(params), planner_(params.trajectory), map_(params.trajectory.path.cost) {}
 
 void Replanner::reset() {
   goal_.reset();
@@ -44,7 +44,7 @@ void Replanner::reset() {
   brakes_ = 0;
 }
 
-Replanner::Situation Replanner::assess(const Input& input) const {
+Replanner::Situation Replanner::assess(const Input& input) {
   Situation s;
   const bool has_current = input.current != nullptr && !input.current->empty();
   s.start_time = input.now + params_.lead;
@@ -73,20 +73,17 @@ Replanner::Situation Replanner::assess(const Input& input) const {
       s.start.velocity = input.vehicle.v_WB_W * std::min(1.0, 0.95 * limits.max_speed / s.speed);
     }
   }
-  if (input.grid == nullptr || input.grid->empty()) {
-    s.map_problem = "there is no map to plan in yet";
+  const OccupancyGrid none;
+  const Status status = map_.update(input.grid == nullptr ? none : *input.grid,
+                                    {s.start.position.head<2>(), input.goal.position.head<2>()},
+                                    params_.trajectory.path.border);
+  if (!status) {
+    s.map_problem = status.error().reason;
     return s;
   }
-  Result<ClearanceMap> map = planner_.path_planner().make_map(
-      *input.grid, s.start.position.head<2>(), input.goal.position.head<2>());
-  if (!map) {
-    s.map_problem = map.error().reason;
-    return s;
-  }
-  s.map = std::move(map).value();
   if (on_track) {
     const auto& path = params_.trajectory.path;
-    s.conflict = first_conflict(*input.current, input.now, *s.map,
+    s.conflict = first_conflict(*input.current, input.now, map_,
                                 path.cost.hard_clearance() - params_.blocked_tolerance,
                                 path.escape_distance);
   }
@@ -103,7 +100,8 @@ ReplanDecision Replanner::answer_failure(const Input& input, const Situation& si
   if (!failing_since_) failing_since_ = input.now;
   const bool given_up = input.now - *failing_since_ >= params_.give_up_after;
   const double braking_s =
-      situation.speed / params_.trajectory.minimum_snap.limits.max_acceleration + params_.brake_reserve_s;
+      situation.speed / params_.trajectory.minimum_snap.limits.max_acceleration +
+      params_.brake_reserve_s;
   const bool near = situation.under_way && decision.blocked &&
                     to_seconds(*situation.conflict - input.now) <= braking_s;
   // From rest there may be a way where none is in flight.
@@ -145,10 +143,10 @@ ReplanDecision Replanner::step(const Input& input) {
 
   // What cannot become clearly better need not be planned.
   double current_cost = 0.0;
-  if (!needed && situation.map) {
-    current_cost = trajectory_cost(*input.current, situation.start_time, *situation.map);
+  if (!needed && !map_.empty()) {
+    current_cost = trajectory_cost(*input.current, situation.start_time, map_);
     const double least = planner_.path_planner().least_cost(
-        *situation.map, situation.start.position.head<2>(), input.goal.position.head<2>());
+        map_, situation.start.position.head<2>(), input.goal.position.head<2>());
     if (least >= (1.0 - params_.improvement) * current_cost) {
       last_plan_ = input.now;
       failing_since_.reset();
@@ -158,13 +156,12 @@ ReplanDecision Replanner::step(const Input& input) {
 
   last_plan_ = input.now;
   TrajectoryResult result;
-  if (!situation.map) {
+  if (map_.empty()) {
     result.failure = input.grid == nullptr || input.grid->empty() ? PlanFailure::kBadInput
                                                                   : PlanFailure::kGoalOutsideMap;
     result.reason = situation.map_problem;
   } else {
-    result = planner_.plan(*situation.map, situation.start_time, situation.start, input.goal,
-                           params_.seed);
+    result = planner_.plan(map_, situation.start_time, situation.start, input.goal, params_.seed);
   }
   if (!result.ok()) {
     last_failure_ = result.failure;
@@ -175,7 +172,7 @@ ReplanDecision Replanner::step(const Input& input) {
 
   ReplanDecision decision;
   decision.blocked = blocked;
-  if (!needed && !(trajectory_cost(result.trajectory, situation.start_time, *situation.map) <
+  if (!needed && !(trajectory_cost(result.trajectory, situation.start_time, map_) <
                    (1.0 - params_.improvement) * current_cost)) {
     return decision;
   }

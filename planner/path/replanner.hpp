@@ -71,12 +71,13 @@ class Replanner {
 
  private:
   struct Situation;  // what is known before planning
-  Situation assess(const Input& input) const;
+  Situation assess(const Input& input);
   ReplanDecision answer_failure(const Input& input, const Situation& situation, PlanFailure failure,
                                 const std::string& reason);
 
   Params params_;
   TrajectoryPlanner planner_;
+  ClearanceMap map_;  // empty where there is none
   std::optional<FlightGoal> goal_;
   std::optional<Time> last_plan_;
   std::optional<Time> failing_since_;

@@ -3,7 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <vector>
 
 #include "perception/distance_field.hpp"
 #include "perception/occupancy_grid.hpp"
@@ -52,6 +54,43 @@ void distance_field(benchmark::State& state) {
   state.counters["cells"] = static_cast<double>(field.values().size());
 }
 BENCHMARK(distance_field)->Name("occupancy/distance_field")->Unit(benchmark::kMicrosecond);
+
+/// A hall of 50 x 50 m with pillars, 1000 x 1000 cells, in which a scan's worth of obstacles comes
+/// and goes. Goal: at most 2 ms.
+void distance_field_update(benchmark::State& state) {
+  OccupancyGrid grid(OccupancyGrid::Params(), {-25, -25}, 1000, 1000);
+  for (int y = 0; y < 1000; ++y) {
+    for (int x = 0; x < 1000; ++x) {
+      const bool wall = x % 999 == 0 || y % 999 == 0 || (x % 80 < 6 && y % 80 < 6);
+      grid.set_state({x, y}, wall ? CellState::kOccupied : CellState::kFree);
+    }
+  }
+  DistanceField::Params params;
+  params.max_distance = 1.0;
+  DistanceField field(grid, params);
+  const LaserScan scan = hall_scan();
+  double x = 0.0;
+  std::vector<double> times_ms;
+  for (auto _ : state) {
+    state.PauseTiming();
+    x = x > 15.0 ? -15.0 : x + 0.05;
+    (void)grid.insert(scan, {x, 0.02 * x, 1}, Eigen::Quaterniond::Identity());
+    state.ResumeTiming();
+    const auto begin = std::chrono::steady_clock::now();
+    field.update(grid);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    times_ms.push_back(took.count());
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  state.counters["p50_ms"] = times_ms[times_ms.size() / 2];
+  state.counters["p99_ms"] = times_ms[times_ms.size() * 99 / 100];
+  double cells = 0.0;
+  for (const RowSpan& span : field.changed()) cells += span.last - span.first + 1;
+  state.counters["cells_of_last"] = cells;
+}
+BENCHMARK(distance_field_update)
+    ->Name("occupancy/distance_field_update_50_m")
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace swiftlet

@@ -75,6 +75,56 @@ TEST(DistanceField, UpdateForgetsTheOldGrid) {
   EXPECT_EQ(field.origin(), now.origin());
 }
 
+TEST(DistanceField, UpdatesAreToTheBitWhatANewFieldIs) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    const int width = 1 + static_cast<int>(random() % 60),
+              height = 1 + static_cast<int>(random() % 60);
+    DistanceField::Params params;
+    params.max_distance = trial % 4 == 0 ? 1e3 : 0.05 * static_cast<double>(random() % 30);
+    params.unknown_is_obstacle = trial % 5 == 0;
+    OccupancyGrid grid = random_grid(random, width, height, trial % 2 == 0 ? 0.01 : 0.3);
+    DistanceField field(grid, params);
+    for (int update = 0; update < 20; ++update) {
+      const std::vector<float> before = field.values();
+      for (unsigned change = 0; change < random() % 12; ++change) {
+        const Cell cell{static_cast<int>(random()) % width, static_cast<int>(random()) % height};
+        grid.set_state(cell, static_cast<CellState>(random() % 3));
+      }
+      field.update(grid);
+      ASSERT_EQ(field.values(), DistanceField(grid, params).values()) << trial << " " << update;
+      // What it says to have left alone is as it was.
+      std::vector<float> after = field.values();
+      for (const RowSpan& span : field.changed()) {
+        for (int x = span.first; x <= span.last; ++x) {
+          const auto i = static_cast<std::size_t>(span.y * width + x);
+          ASSERT_GE(after[i], 0.0F) << "no cell twice";
+          after[i] = -1.0F;
+        }
+      }
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        ASSERT_TRUE(after[i] < 0.0F || after[i] == before[i]);
+      }
+    }
+  }
+}
+
+TEST(DistanceField, AnUpdateLooksNoFartherThanItMust) {
+  OccupancyGrid::Params grid_params;
+  OccupancyGrid grid(grid_params, {0, 0}, 200, 200);
+  DistanceField::Params params;
+  params.max_distance = 0.5;  // ten cells
+  DistanceField field(grid, params);
+  field.update(grid);
+  EXPECT_TRUE(field.changed().empty());
+  grid.set_state({100, 50}, CellState::kOccupied);
+  field.update(grid);
+  int cells = 0;
+  for (const RowSpan& span : field.changed()) cells += span.last - span.first + 1;
+  EXPECT_GE(cells, 21 * 21 - 4 * 10 * 10);
+  EXPECT_LE(cells, 23 * 23);
+}
+
 TEST(DistanceField, BetweenCentresItIsInterpolatedAndNeverSteeperThanItShould) {
   std::mt19937 random(3);
   const OccupancyGrid grid = random_grid(random, 40, 30, 0.02);

@@ -22,7 +22,7 @@ TEST(ClearanceMap, ClearanceIsTheDistanceToTheFaceOfObstacles) {
   std::uniform_real_distribution<double> x(0.3, 14.9), y(0.3, 9.9);
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector2d p(x(random), y(random));
-    const double truth = test::true_clearance(grid, p);
+    const double truth = std::min(test::true_clearance(grid, p), map->known_clearance());
     if (truth < 0.05) continue;
     const double error = map->clearance_at(p) - truth;
     // Beside a corner the distance to its cell's centre less half a cell is up to 0.21 cells more
@@ -81,8 +81,49 @@ TEST(ClearanceMap, ReachesBeyondTheGrid) {
   ASSERT_TRUE(map.ok());
   EXPECT_TRUE(map->contains(Eigen::Vector2d(9.4, -4.4)));
   EXPECT_TRUE(map->unknown_at({9.0, -4.0}));
-  EXPECT_NEAR(map->clearance_at({3.0, -1.0}), 1.0, 0.01);
+  EXPECT_NEAR(map->clearance_at({3.0, -0.7}), 0.7, 0.01);
+  EXPECT_NEAR(map->clearance_at({3.0, -3.0}), map->known_clearance(), 0.01);
   EXPECT_LT(map->clearance_at({90.0, 0.0}), 0.0);
+}
+
+TEST(ClearanceMap, UpdatedItIsTheOneThatAFreshOneWouldBe) {
+  std::mt19937 random(3);
+  OccupancyGrid grid = test::office();
+  ClearanceMap map{PathCost()};
+  std::uniform_real_distribution<double> x(-1.0, 16.0), y(-1.0, 11.0);
+  for (int update = 0; update < 30; ++update) {
+    const Eigen::Vector2d center(x(random), y(random)), reach(x(random), y(random));
+    const auto state = static_cast<CellState>(random() % 3);
+    test::paint(grid, center.x(), center.y(), center.x() + 0.6, center.y() + 0.3, state);
+    if (update == 20) {
+      ASSERT_TRUE(grid.cover({-3, -3}, {17, 12}).ok());
+    }
+    ASSERT_TRUE(map.update(grid, {reach}, 1.0).ok());
+    const Eigen::Vector2d far =
+        map.origin() + Eigen::Vector2d(map.width() - 0.5, map.height() - 0.5) * map.resolution();
+    const auto fresh = ClearanceMap::make(
+        grid, {}, {map.origin() + Eigen::Vector2d::Constant(0.5 * map.resolution()), far});
+    ASSERT_TRUE(fresh.ok());
+    ASSERT_EQ(map.field().values(), fresh->field().values()) << update;
+    for (int row = 0; row < map.height(); ++row) {
+      for (int column = 0; column < map.width(); ++column) {
+        ASSERT_EQ(map.density({column, row}), fresh->density({column, row})) << update;
+        ASSERT_EQ(map.unknown_at(map.center_of({column, row})),
+                  fresh->unknown_at(map.center_of({column, row})));
+      }
+    }
+  }
+  EXPECT_FALSE(map.update(OccupancyGrid()).ok());
+  EXPECT_TRUE(map.empty());
+  EXPECT_TRUE(map.update(grid).ok());
+}
+
+TEST(ClearanceMap, AnotherPlaceIsAnotherMap) {
+  ClearanceMap map{PathCost()};
+  ASSERT_TRUE(map.update(test::hall(6, 6)).ok());
+  OccupancyGrid far(OccupancyGrid::Params(), {5e5, 5e5}, 40, 40);
+  ASSERT_TRUE(map.update(far).ok());
+  EXPECT_EQ(map.width(), 40);
 }
 
 TEST(ClearanceMap, RefusesWhatMakesNoMap) {
