@@ -53,28 +53,41 @@ Measured measured_columns(const PoseImuUkf::Covariance& P) {
   return columns;
 }
 
+void symmetrise(PoseImuUkf::Covariance& P) {
+  for (int j = 0; j < PoseImuUkf::kDim; ++j) {
+    for (int i = 0; i < j; ++i) P(i, j) = P(j, i) = 0.5 * (P(i, j) + P(j, i));
+  }
+}
+
+/// At this size, and with lazyProduct, half the time of Eigen's blocked solvers and products.
+Matrix6d inverse_of_lower(const Matrix6d& L) {
+  Matrix6d inverse;
+  for (int j = 0; j < 6; ++j) {
+    inverse.col(j) = L.triangularView<Eigen::Lower>().solve(Vector6d::Unit(j));
+  }
+  return inverse;
+}
+
 Error refused(std::string reason) {
   return Error{std::move(reason)};
 }
 
-/// Discrete process noise over `dt`: v_Omega, v_a and v_b of equation 10 as white noise. Isotropic,
-/// so that it is the same in body and world axes.
-PoseImuUkf::Covariance process_noise(const PoseImuUkf::Params& params, double dt) {
+/// Adds to `P` the discrete process noise over `dt`: v_Omega, v_a and v_b of equation 10 as white
+/// noise. Isotropic, so that it is the same in body and world axes.
+void add_process_noise(const PoseImuUkf::Params& params, double dt, PoseImuUkf::Covariance& P) {
   const double gyro = params.gyro_noise * params.gyro_noise;
   const double accelerometer = params.accelerometer_noise * params.accelerometer_noise;
   const double bias = params.bias_random_walk * params.bias_random_walk;
   const double gyro_bias = params.gyro_bias_random_walk * params.gyro_bias_random_walk;
-  PoseImuUkf::Covariance Q = PoseImuUkf::Covariance::Zero();
   for (int i = 0; i < 3; ++i) {
-    Q(kPosition + i, kPosition + i) = accelerometer * dt * dt * dt / 3.0;
-    Q(kPosition + i, kVelocity + i) = accelerometer * dt * dt / 2.0;
-    Q(kVelocity + i, kPosition + i) = accelerometer * dt * dt / 2.0;
-    Q(kVelocity + i, kVelocity + i) = accelerometer * dt;
-    Q(kAttitude + i, kAttitude + i) = gyro * dt;
-    Q(kBias + i, kBias + i) = bias * dt;
-    Q(kGyroBias + i, kGyroBias + i) = gyro_bias * dt;
+    P(kPosition + i, kPosition + i) += accelerometer * dt * dt * dt / 3.0;
+    P(kPosition + i, kVelocity + i) += accelerometer * dt * dt / 2.0;
+    P(kVelocity + i, kPosition + i) += accelerometer * dt * dt / 2.0;
+    P(kVelocity + i, kVelocity + i) += accelerometer * dt;
+    P(kAttitude + i, kAttitude + i) += gyro * dt;
+    P(kBias + i, kBias + i) += bias * dt;
+    P(kGyroBias + i, kGyroBias + i) += gyro_bias * dt;
   }
-  return Q;
 }
 
 }  // namespace
@@ -141,7 +154,7 @@ void PoseImuUkf::restart(Time time, const PoseMeasurement& measurement) {
   covariance_.block<3, 3>(kDrift, kDrift) = drift_covariance_;
   covariance_.block<3, 3>(kPosition, kDrift) = -drift_covariance_;
   covariance_.block<3, 3>(kDrift, kPosition) = -drift_covariance_;
-  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+  symmetrise(covariance_);
   time_ = std::max(time_, time);
   last_measurement_time_ = time_;
   rejected_count_ = 0;
@@ -184,7 +197,7 @@ bool PoseImuUkf::factorise_turning(Matrix6d& S) {
     const double floor = std::max(1e-12 * eigen.eigenvalues().maxCoeff(), 1e-18);
     const Covariance& V = eigen.eigenvectors();
     covariance_ = V * eigen.eigenvalues().cwiseMax(floor).asDiagonal() * V.transpose();
-    covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+    symmetrise(covariance_);
     ++covariance_repairs_;
     cholesky.compute(covariance_.block<kTurning, kTurning>(kAttitude, kAttitude));
   }
@@ -204,30 +217,38 @@ bool PoseImuUkf::propagate(double dt, const ImuSample& input) {
   const Matrix3d velocity_gain = turn_jacobian * dt;
   const Matrix3d position_gain = left_jacobian_integral_so3(turn) * (dt * dt);
   const Vector3d f = input.specific_force - accelerometer_bias_;
-  const auto g = [&](const Vector6d& error) {
-    const Matrix3d R = (exp_so3(error.head<3>()) * q_WB_).toRotationMatrix();
-    const Vector3d force = f - error.tail<3>();
+  Eigen::Matrix<double, 6, 3> gain;
+  gain << position_gain, velocity_gain;
+  const auto g = [&](const Quaterniond& turned, const Vector3d& bias_error) {
+    const Matrix3d R = (turned * q_WB_).toRotationMatrix();
+    const Vector6d in_body = gain * (f - bias_error);
     Vector6d added;
-    added << R * (position_gain * force), R * (velocity_gain * force);
+    added << R * in_body.head<3>(), R * in_body.tail<3>();
     return added;
   };
 
   Matrix6d S;
   if (!factorise_turning(S)) return false;
   const double spread = std::sqrt(kSpread2);
-  const Vector6d centre = g(Vector6d::Zero());
+  const Vector6d centre = g(Quaterniond::Identity(), Vector3d::Zero());
   Matrix6d odd, even;  // halves of the differences and of the sums of each pair
   for (int j = 0; j < kTurning; ++j) {
-    const Vector6d ahead = g(spread * S.col(j)), behind = g(-spread * S.col(j));
-    odd.col(j) = 0.5 * (ahead - behind);
-    even.col(j) = 0.5 * (ahead + behind);
+    const Vector3d bias_error = spread * S.block<3, 1>(3, j);
+    if (j < 3) {
+      const Quaterniond turned = exp_so3(spread * S.block<3, 1>(0, j));
+      const Vector6d ahead = g(turned, bias_error), behind = g(turned.conjugate(), -bias_error);
+      odd.col(j) = 0.5 * (ahead - behind);
+      even.col(j) = 0.5 * (ahead + behind);
+    } else {  // S is triangular: nothing is turned, and in the bias g is linear
+      odd.col(j) = g(Quaterniond::Identity(), bias_error) - centre;
+      even.col(j) = centre;
+    }
   }
   const Vector6d mean = kCentreWeight * centre + kPairWeight * even.rowwise().sum();
   even.colwise() -= mean;
   const Vector6d off_centre = centre - mean;
   // The odd parts are those of the linear function G; the even ones are the rest of the covariance.
-  const Matrix6d G =
-      S.transpose().triangularView<Eigen::Upper>().solve(odd.transpose() / spread).transpose();
+  const Matrix6d G = odd.lazyProduct(inverse_of_lower(S)) / spread;
   const Matrix6d bent =
       kPairWeight * even * even.transpose() + kCentreWeight * off_centre * off_centre.transpose();
 
@@ -236,28 +257,27 @@ bool PoseImuUkf::propagate(double dt, const ImuSample& input) {
   const Matrix3d swept = 0.5 * dt * dt * R * hat(f);  // velocity by gyroscope bias
   const double kept = std::exp(-dt / params_.drift_time_constant);
 
-  // F P F^T, by the blocks in which F differs from the identity.
-  const Covariance& P = covariance_;
-  Covariance FP = P;
-  FP.middleRows<3>(kPosition) += dt * P.middleRows<3>(kVelocity) +
-                                 G.topRows<3>() * P.middleRows<6>(kAttitude) +
-                                 dt / 3.0 * swept * P.middleRows<3>(kGyroBias);
-  FP.middleRows<3>(kVelocity) +=
-      G.bottomRows<3>() * P.middleRows<6>(kAttitude) + swept * P.middleRows<3>(kGyroBias);
-  FP.middleRows<3>(kAttitude) += turned * P.middleRows<3>(kGyroBias);
-  FP.middleRows<3>(kDrift) *= kept;
-  Covariance next = FP;
-  next.middleCols<3>(kPosition) += dt * FP.middleCols<3>(kVelocity) +
-                                   FP.middleCols<6>(kAttitude) * G.topRows<3>().transpose() +
-                                   FP.middleCols<3>(kGyroBias) * (dt / 3.0 * swept.transpose());
-  next.middleCols<3>(kVelocity) += FP.middleCols<6>(kAttitude) * G.bottomRows<3>().transpose() +
-                                   FP.middleCols<3>(kGyroBias) * swept.transpose();
-  next.middleCols<3>(kAttitude) += FP.middleCols<3>(kGyroBias) * turned.transpose();
+  // F P F^T, by the blocks in which F differs from the identity. In this order none is needed again
+  // once it is changed.
+  Covariance next = covariance_;
+  next.middleRows<3>(kPosition) += dt * next.middleRows<3>(kVelocity) +
+                                   G.topRows<3>() * next.middleRows<6>(kAttitude) +
+                                   dt / 3.0 * swept * next.middleRows<3>(kGyroBias);
+  next.middleRows<3>(kVelocity) +=
+      G.bottomRows<3>() * next.middleRows<6>(kAttitude) + swept * next.middleRows<3>(kGyroBias);
+  next.middleRows<3>(kAttitude) += turned * next.middleRows<3>(kGyroBias);
+  next.middleRows<3>(kDrift) *= kept;
+  next.middleCols<3>(kPosition) += dt * next.middleCols<3>(kVelocity) +
+                                   next.middleCols<6>(kAttitude) * G.topRows<3>().transpose() +
+                                   next.middleCols<3>(kGyroBias) * (dt / 3.0 * swept.transpose());
+  next.middleCols<3>(kVelocity) += next.middleCols<6>(kAttitude) * G.bottomRows<3>().transpose() +
+                                   next.middleCols<3>(kGyroBias) * swept.transpose();
+  next.middleCols<3>(kAttitude) += next.middleCols<3>(kGyroBias) * turned.transpose();
   next.middleCols<3>(kDrift) *= kept;
   next.topLeftCorner<6, 6>() += bent;
-  next += process_noise(params_, dt);
+  add_process_noise(params_, dt, next);
   next.block<3, 3>(kDrift, kDrift) += (1.0 - kept * kept) * drift_covariance_;
-  next = 0.5 * (next + next.transpose()).eval();
+  symmetrise(next);
   if (!next.allFinite() || !mean.allFinite()) return false;
 
   const Vector3d gravity(0.0, 0.0, -kGravity);
@@ -314,18 +334,20 @@ UpdateReport PoseImuUkf::update(Time time, const PoseMeasurement& measurement) {
     return reject(time, measurement, std::move(report));
   }
 
-  const Measured K = cholesky.solve(PHt.transpose()).transpose();
+  const Matrix6d root = inverse_of_lower(cholesky.matrixL());
+  const Measured whitened = PHt.lazyProduct(root.transpose());
+  const Measured K = whitened.lazyProduct(root);
   const ErrorVector correction = K * innovation;
   // Joseph's form (I - K H) P (I - K H)^T + K R K^T, one factor after the other.
-  Covariance covariance = covariance_ - K * PHt.transpose();
-  covariance -= measured_columns(covariance) * K.transpose();
-  covariance += K * R * K.transpose();
+  Covariance covariance = covariance_ - K.lazyProduct(PHt.transpose());
+  const Measured left = K.lazyProduct(R) - measured_columns(covariance);
+  covariance += left.lazyProduct(K.transpose());
   // Errors are counted from the corrected attitude, which turns their axes by the left Jacobian.
   const Matrix3d J = left_jacobian_so3(correction.segment<3>(kAttitude));
   covariance.middleRows<3>(kAttitude) = (J * covariance.middleRows<3>(kAttitude)).eval();
   covariance.middleCols<3>(kAttitude) =
       (covariance.middleCols<3>(kAttitude) * J.transpose()).eval();
-  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+  symmetrise(covariance);
   if (!covariance.allFinite() || !correction.allFinite()) return refuse("update is not finite");
 
   p_WB_ += correction.segment<3>(kPosition);
