@@ -11,11 +11,12 @@ namespace swiftlet {
 
 /// The odometry of a log, that at its scans included, in the order of time.
 ///
-/// A logger that keeps its lines in the order of time gives one whose stamp would be before that of
-/// the last line the time of that line and a millisecond more: such a stamp tells the order, not
-/// the time. Odometry comes at a steady rate, so its lines get the time that the stamps of those
-/// around say (a straight line through thirty of them), but none that is later than what stands
-/// there.
+/// A logger that was busy stamps all that waited for it in one go, and one that keeps its lines in
+/// the order of time gives a line whose stamp would be before that of the last the time of that and
+/// a millisecond more: such stamps tell the order, not the time. Odometry comes at a steady rate,
+/// so lines that come within a tick of the one before get the time that the stamps of those around
+/// say (a straight line through thirty of them), but none that is later than what stands there. A
+/// line from which no vehicle could have come to the next in time was stamped too late.
 std::vector<TimedPose2> timed_odometry(const carmen::Log& log);
 
 }  // namespace swiftlet

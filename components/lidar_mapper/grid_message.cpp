@@ -7,6 +7,17 @@
 #include "components/conversions.hpp"
 
 namespace swiftlet {
+namespace {
+
+constexpr std::int8_t kUnknown = -1;
+
+std::int8_t percent_of(std::int16_t evidence) {
+  if (evidence == OccupancyGrid::kNoEvidence) return kUnknown;
+  const double log_odds = evidence / OccupancyGrid::kEvidencePerLogOdds;
+  return static_cast<std::int8_t>(std::lround(100.0 / (1.0 + std::exp(-log_odds))));
+}
+
+}  // namespace
 
 nav_msgs::msg::OccupancyGrid to_msg(const OccupancyGrid& grid, Time time) {
   nav_msgs::msg::OccupancyGrid message;
@@ -17,15 +28,15 @@ nav_msgs::msg::OccupancyGrid to_msg(const OccupancyGrid& grid, Time time) {
   message.info().height(static_cast<std::uint32_t>(grid.height()));
   message.info().origin(
       to_pose({grid.origin().x(), grid.origin().y(), 0.0}, Eigen::Quaterniond::Identity()));
-  std::vector<std::int8_t> data;
-  data.reserve(grid.evidence().size());
-  for (const std::int16_t evidence : grid.evidence()) {
-    if (evidence == OccupancyGrid::kNoEvidence) {
-      data.push_back(-1);
-    } else {
-      const double log_odds = evidence / OccupancyGrid::kEvidencePerLogOdds;
-      data.push_back(static_cast<std::int8_t>(std::lround(100.0 / (1.0 + std::exp(-log_odds)))));
-    }
+  std::vector<std::int8_t> data(grid.evidence().size());
+  // Most cells are as sure as can be, and so are those beside them.
+  std::int16_t last = OccupancyGrid::kNoEvidence;
+  std::int8_t percent = kUnknown;
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const std::int16_t evidence = grid.evidence()[i];
+    if (evidence != last) percent = percent_of(evidence);
+    last = evidence;
+    data[i] = percent;
   }
   message.data(std::move(data));
   return message;

@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 constexpr double kSearchSigmas = 4.0;
 // What a search around no more than the last pose begins with.
 constexpr double kRestDistance = 0.25, kRestAngle = 0.3;  // [m], [rad]
-// The poses are brought into agreement when a closure is off by so much, or after so many.
+// The poses are brought into agreement when a closure is off by so much, and every so often.
 constexpr double kMovedDistance = 0.03, kMovedAngle = 0.01;  // [m], [rad]
-constexpr int kManyClosures = 20;
+constexpr int kManyKeyframes = 50;
 constexpr int kIterations = 10;
 constexpr double kWeakReach = 6.0;    // of the whole map, when the last keyframes do not help [m]
 constexpr double kClearlyMore = 0.1;  // overlap
@@ -176,14 +176,16 @@ LidarSlam::BackEndResult LidarSlam::run_back_end(const BackEndJob& job) {
       result.closures.push_back(closure);
     }
   }
-  const auto pending = std::count_if(job.constraints.rbegin(), job.constraints.rend(),
-                                     [](const PoseConstraint& c) { return c.robust; });
-  moved |= !result.closures.empty() &&
-           (pending + static_cast<int>(result.closures.size())) % kManyClosures <
-               static_cast<int>(result.closures.size());
+  for (int i = job.first_new; i < static_cast<int>(job.keyframes.size()); ++i) {
+    const auto pairs = align_with_neighbours(job.keyframes, result.poses, i, job.params.neighbours,
+                                             job.params.noise);
+    result.pairs.insert(result.pairs.end(), pairs.begin(), pairs.end());
+  }
+  moved |= static_cast<int>(job.keyframes.size()) / kManyKeyframes > job.first_new / kManyKeyframes;
   if (!moved) return result;
   std::vector<PoseConstraint> all = job.constraints;
   all.insert(all.end(), result.closures.begin(), result.closures.end());
+  all.insert(all.end(), result.pairs.begin(), result.pairs.end());
   optimize_poses(result.poses, all, kIterations);
   result.optimized = true;
   return result;
@@ -191,17 +193,13 @@ LidarSlam::BackEndResult LidarSlam::run_back_end(const BackEndJob& job) {
 
 void LidarSlam::apply(const BackEndResult& result) {
   constraints_.insert(constraints_.end(), result.closures.begin(), result.closures.end());
+  constraints_.insert(constraints_.end(), result.pairs.begin(), result.pairs.end());
   if (!result.optimized) return;
   const Pose2 correction = result.poses.back() * job_last_pose_.inverse();
   std::copy(result.poses.begin(), result.poses.end(), poses_.begin());
   for (std::size_t i = static_cast<std::size_t>(job_keyframes_); i < poses_.size(); ++i) {
     poses_[i] = correction * poses_[i];
   }
-  recent_map_.reset();
-}
-
-void LidarSlam::refine() {
-  refine_poses(keyframes_, constraints_, poses_, params_.refiner, params_.noise);
   recent_map_.reset();
 }
 

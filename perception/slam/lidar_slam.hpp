@@ -7,8 +7,8 @@
 
 #include "perception/slam/local_map.hpp"
 #include "perception/slam/loop_closer.hpp"
+#include "perception/slam/neighbour_aligner.hpp"
 #include "perception/slam/pose_graph.hpp"
-#include "perception/slam/trajectory_refiner.hpp"
 
 namespace swiftlet {
 
@@ -19,9 +19,10 @@ namespace swiftlet {
 /// last keyframe does not tell enough becomes a keyframe itself: a node of a graph whose edges are
 /// what matches said.
 ///
-/// The back end, `run_back_end`, looks for places that have been seen before and finds the poses
-/// that agree best with all edges. It is a pure function of what it is given, so that it may run
-/// beside the front end, in another thread; `apply` takes its result in, at any later time.
+/// The back end, `run_back_end`, looks for places that have been seen before, aligns keyframes with
+/// those around them, and finds the poses that agree best with all edges. It is a pure function of
+/// what it is given, so that it may run beside the front end, in another thread; `apply` takes its
+/// result in, at any later time.
 ///
 /// The map frame is odometry's at the first scan, else the first scan's.
 class LidarSlam {
@@ -46,7 +47,7 @@ class LidarSlam {
     double odometry_angle_per_radian = 0.10;    ///<
     LineMatchNoise noise;
     LoopCloserParams loops;
-    RefinerParams refiner;
+    NeighbourParams neighbours;
   };
 
   struct Update {
@@ -76,6 +77,7 @@ class LidarSlam {
   struct BackEndResult {
     std::vector<Pose2> poses;
     std::vector<PoseConstraint> closures;  ///< new ones
+    std::vector<PoseConstraint> pairs;     ///< of new keyframes with those around them
     bool optimized = false;
   };
   bool has_job() const { return first_new_ < static_cast<int>(keyframes_.size()); }
@@ -84,10 +86,6 @@ class LidarSlam {
   static BackEndResult run_back_end(const BackEndJob& job);
   /// Keyframes that have come since the job was taken move along with its last one.
   void apply(const BackEndResult& result);
-
-  /// Aligns all keyframes once more, each with all around it: for the end of a log. Not while a
-  /// job runs.
-  void refine();
 
   const std::vector<KeyframePtr>& keyframes() const { return keyframes_; }
   /// Of the keyframes, as known now.

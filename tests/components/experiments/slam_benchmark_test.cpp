@@ -163,6 +163,26 @@ TEST(TimedOdometry, StampsThatOnlyTellTheOrderGetTheTimeOfTheSteadyRate) {
                              [](const TimedPose2& a, const TimedPose2& b) { return a.t < b.t; }));
 }
 
+TEST(TimedOdometry, AStampFromWhichNobodyCouldHaveComeToTheNextIsTakenBack) {
+  carmen::Log log = steady_log();
+  for (int i = 26; i < 30; ++i) log.odometry.erase(log.odometry.begin() + 26);  // lost
+  carmen::Scan scan;
+  scan.time = Time(std::chrono::milliseconds(6000));
+  scan.robot_pose = {6.0, 0.0, 0.0};
+  scan.has_pose = true;
+  log.scans.push_back(scan);
+  log.odometry[25].time = scan.time - std::chrono::milliseconds(1);  // 1 m before the scan
+  log.odometry.erase(log.odometry.begin() + 26);                     // the one at the scan
+  for (const TimedPose2& timed : timed_odometry(log)) {
+    const double x = timed.pose.position.x();
+    if (std::abs(x - 5.0) > 1e-9) {
+      EXPECT_NEAR(timed.t, x, 1e-9);
+    } else {
+      EXPECT_NEAR(timed.t, 6.0 - 1.0 / 60.0, 1e-9);  // 60 m/s are believed
+    }
+  }
+}
+
 TEST(TimedOdometry, SoundStampsStayAsTheyAre) {
   const auto odometry = timed_odometry(steady_log());
   ASSERT_EQ(odometry.size(), 60u);
