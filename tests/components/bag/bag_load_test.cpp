@@ -161,8 +161,8 @@ TEST_F(BagLoad, TwentyThousandSmallSamplesASecondAreRecordedOnACore) {
   double cores = 0.0, peak_mb = 0.0;
   record_all({8, 100, 20'000, seconds_, "reliable"}, cores, peak_mb);
   expect_nothing_lost();
-  EXPECT_LT(peak_mb, kMostMemoryMb);
-  if (test::kSlowdown == 1) {
+  if (test::kSlowdown == 1) {  // a sanitizer keeps what is freed for a while
+    EXPECT_LT(peak_mb, kMostMemoryMb);
     EXPECT_LT(cores, 1.0);
   }
 }
