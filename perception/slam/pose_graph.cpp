@@ -97,6 +97,8 @@ ceres::Solver::Summary solve(std::vector<Vector3d>& blocks,
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // One thread, and the same sums on every machine: CHOLMOD brings threads of its own.
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-5;
   options.num_threads = 1;
