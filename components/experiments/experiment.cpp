@@ -8,9 +8,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "components/experiments/euroc.hpp"
-#include "components/experiments/slam_benchmark.hpp"
-#include "components/experiments/smartphone.hpp"
+#include "components/experiments/euroc/euroc.hpp"
+#include "components/experiments/planning/planning_benchmark.hpp"
+#include "components/experiments/slam/slam_benchmark.hpp"
+#include "components/experiments/smartphone/smartphone.hpp"
 
 namespace swiftlet {
 namespace {
@@ -65,6 +66,8 @@ const std::vector<Experiment>& experiments() {
       {"euroc-flights", "real flights as references in simulation", true, run_euroc_flights},
       {"slam-benchmark", "the mapper on real logs, scored by relations that people verified", true,
        run_slam_benchmark},
+      {"planning", "public maps in the plane and in space, beside OMPL's planners", true,
+       run_planning_benchmark},
   };
   return all;
 }

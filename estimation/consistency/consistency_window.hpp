@@ -7,7 +7,8 @@
 namespace swiftlet {
 
 /// Quantile of the chi-square distribution by Wilson and Hilferty: within 3 % at 6 degrees of
-/// freedom, within 0.03 % at 100. `normal_quantile` is that of the standard normal: 1.96 for 97.5 %.
+/// freedom, within 0.03 % at 100. `normal_quantile` is that of the standard normal: 1.96 for 97.5
+/// %.
 double chi_square_quantile(double degrees, double normal_quantile);
 
 /// Whether a filter's covariance is as large as its errors: the mean of normalised squares (NIS of

@@ -123,9 +123,8 @@ TEST_F(Flight, AnEstimatorThatDiesInTheClimbLeavesTheWallsAlone) {
   for (int seed = 1; seed <= seeds; ++seed) {
     for (const char* fault : {"kill estimator@11.2", "kill estimator@12"}) {
       SCOPED_TRACE(fault + std::string(", seed ") + std::to_string(seed));
-      const Finished finished =
-          run({"--log", "warning", "fly", office(), "--report", path("blind"), "--seed",
-               std::to_string(seed), "--what-if", fault});
+      const Finished finished = run({"--log", "warning", "fly", office(), "--report", path("blind"),
+                                     "--seed", std::to_string(seed), "--what-if", fault});
       EXPECT_EQ(finished.exit_code, 1);
       const json report = read_report(folder() / "blind");
       ASSERT_FALSE(report.is_null()) << finished.err;

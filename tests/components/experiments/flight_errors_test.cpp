@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/flight_errors.hpp"
+#include "components/experiments/flight/flight_errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/motion_log.hpp"
+#include "components/experiments/euroc/motion_log.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

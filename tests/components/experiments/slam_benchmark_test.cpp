@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "components/experiments/data_table.hpp"
-#include "components/experiments/laser_logs.hpp"
-#include "components/experiments/odometry_times.hpp"
-#include "components/experiments/relations.hpp"
+#include "components/experiments/slam/laser_logs.hpp"
+#include "components/experiments/slam/odometry_times.hpp"
+#include "components/experiments/slam/relations.hpp"
 #include "tests/components/sim/fixture.hpp"
 #include "tests/data_folder.hpp"
 

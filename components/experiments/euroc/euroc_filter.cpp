@@ -7,9 +7,9 @@
 
 #include "components/estimator/estimator_params.hpp"
 #include "components/experiments/data_table.hpp"
-#include "components/experiments/euroc.hpp"
-#include "components/experiments/flight_errors.hpp"
-#include "components/experiments/motion_log.hpp"
+#include "components/experiments/euroc/euroc.hpp"
+#include "components/experiments/euroc/motion_log.hpp"
+#include "components/experiments/flight/flight_errors.hpp"
 #include "components/experiments/seed_000.hpp"
 #include "components/experiments/shared_file.hpp"
 #include "components/sim/sensors/phone_pose.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/smartphone_figures.hpp"
+#include "components/experiments/smartphone/smartphone_figures.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "components/experiments/reference_flight.hpp"
+#include "components/experiments/flight/reference_flight.hpp"
 
 namespace swiftlet {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/relations.hpp"
+#include "components/experiments/slam/relations.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/slam_benchmark.hpp"
+#include "components/experiments/slam/slam_benchmark.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@
 #include "components/bag/convert_carmen.hpp"
 #include "components/bag/recording.hpp"
 #include "components/conversions.hpp"
-#include "components/experiments/laser_logs.hpp"
-#include "components/experiments/odometry_times.hpp"
+#include "components/experiments/slam/laser_logs.hpp"
+#include "components/experiments/slam/odometry_times.hpp"
 #include "components/lidar_mapper/map_keeper.hpp"
 #include "components/replay/replay_components.hpp"
 #include "components/runtime/host.hpp"

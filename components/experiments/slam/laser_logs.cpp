@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/laser_logs.hpp"
+#include "components/experiments/slam/laser_logs.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/odometry_times.hpp"
+#include "components/experiments/slam/odometry_times.hpp"
 
 #include <algorithm>
 #include <cstddef>

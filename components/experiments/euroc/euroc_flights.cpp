@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "components/experiments/data_table.hpp"
-#include "components/experiments/euroc.hpp"
-#include "components/experiments/flight_errors.hpp"
-#include "components/experiments/motion_log.hpp"
+#include "components/experiments/euroc/euroc.hpp"
+#include "components/experiments/euroc/motion_log.hpp"
+#include "components/experiments/flight/flight_errors.hpp"
 #include "components/experiments/shared_file.hpp"
 #include "components/sim/scenario.hpp"
 #include "planner/trajectory/limits.hpp"

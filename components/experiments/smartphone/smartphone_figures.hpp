@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/experiments/reference_flight.hpp"
+#include "components/experiments/flight/reference_flight.hpp"
 
 /// Figures 7, 8 and 10 to 12 of seed 000, of one of our flights, in the paper's colours.
 namespace swiftlet {

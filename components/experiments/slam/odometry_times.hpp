@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/bag/carmen/carmen_log.hpp"
-#include "components/experiments/relations.hpp"
+#include "components/experiments/slam/relations.hpp"
 
 namespace swiftlet {
 

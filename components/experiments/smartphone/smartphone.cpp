@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/smartphone.hpp"
+#include "components/experiments/smartphone/smartphone.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "components/experiments/flight_errors.hpp"
-#include "components/experiments/reference_flight.hpp"
+#include "components/experiments/flight/flight_errors.hpp"
+#include "components/experiments/flight/reference_flight.hpp"
 #include "components/experiments/seed_000.hpp"
 #include "components/experiments/shared_file.hpp"
-#include "components/experiments/smartphone_figures.hpp"
+#include "components/experiments/smartphone/smartphone_figures.hpp"
 #include "components/sim/scenario.hpp"
 #include "estimation/consistency/consistency_window.hpp"
 #include "planner/trajectory/durations.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/experiments/reference_flight.hpp"
+#include "components/experiments/flight/reference_flight.hpp"
 
 #include <fmt/format.h>
 
