@@ -16,7 +16,7 @@
 #include "components/sim/wind.hpp"
 #include "control/flight_loop.hpp"
 #include "estimation/ukf/pose_imu_ukf.hpp"
-#include "tests/system/process.hpp"
+#include "tests/slowdown.hpp"
 
 namespace swiftlet::test {
 namespace {

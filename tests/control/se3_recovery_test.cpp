@@ -11,6 +11,7 @@
 
 #include "estimation/geometry/so3.hpp"
 #include "tests/control/vehicle_simulation.hpp"
+#include "tests/slowdown.hpp"
 
 namespace swiftlet::test {
 namespace {
@@ -20,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kDt = 0.002;
 constexpr double kStartError = 170.0 * 3.14159265358979323846 / 180.0;
-constexpr int kStarts = 1000;
+constexpr int kStarts = 1000 / test::kSlowdown;
 
 struct RandomStart {
   std::mt19937_64 random;

@@ -119,7 +119,7 @@ TEST_F(Flight, BehindAClosedDoorEndsInHoverWithTheReason) {
 }
 
 TEST_F(Flight, AnEstimatorThatDiesInTheClimbLeavesTheWallsAlone) {
-  const int seeds = full_tests() ? 24 : 6;
+  const int seeds = full_tests() ? 24 : kSlowdown > 1 ? 1 : 6;
   for (int seed = 1; seed <= seeds; ++seed) {
     for (const char* fault : {"kill estimator@11.2", "kill estimator@12"}) {
       SCOPED_TRACE(fault + std::string(", seed ") + std::to_string(seed));
@@ -136,7 +136,7 @@ TEST_F(Flight, AnEstimatorThatDiesInTheClimbLeavesTheWallsAlone) {
 }
 
 TEST_F(Flight, EverySeedCompletesTheOffice) {
-  const int seeds = full_tests() ? 50 : 3;
+  const int seeds = full_tests() ? 50 : kSlowdown > 1 ? 1 : 3;
   std::vector<std::pair<std::string, Process>> under_way;
   const auto land_one = [&] {
     auto [name, process] = std::move(under_way.front());

@@ -11,16 +11,9 @@
 #include <string>
 #include <vector>
 
-namespace swiftlet::test {
+#include "tests/slowdown.hpp"
 
-/// The sanitizers make a program many times slower; deadlines are as many times longer.
-#if defined(__SANITIZE_THREAD__)
-inline constexpr int kSlowdown = 20;
-#elif defined(__SANITIZE_ADDRESS__)
-inline constexpr int kSlowdown = 8;
-#else
-inline constexpr int kSlowdown = 1;
-#endif
+namespace swiftlet::test {
 
 using Seconds = std::chrono::duration<double>;
 
