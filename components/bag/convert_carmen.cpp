@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/bag/mcap/writer.hpp"
-#include "components/runtime/message.hpp"
-#include "components/runtime/reflection/idl_schema.hpp"
+#include "components/bag/topic_file.hpp"
 #include "nav_msgs.h"
 #include "sensor_msgs.h"
 
@@ -19,14 +17,6 @@ namespace {
 using carmen::Pose;
 
 constexpr const char* kLaserFrame = "laser";
-/// What rosbag2 writes for a reliable topic with a queue of 10.
-constexpr const char* kQosProfile =
-    "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n"
-    "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  liveliness: 1\n"
-    "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  avoid_ros_namespace_conventions: false";
 
 template <class Header>
 void fill_header(Header& header, Time time, const std::string& frame) {
@@ -94,40 +84,10 @@ std::vector<Event> events_of(const carmen::Log& log) {
   return events;
 }
 
-/// One topic of the file, with the counter that MCAP wants.
-template <class T>
-class Topic {
- public:
-  Status open(mcap::Writer& writer, const std::string& name) {
-    const std::string& type = message_type<T>().name();
-    const auto text = idl_schema(type);
-    if (!text.ok()) return text.error();
-    const auto schema = writer.add_schema(type, "ros2idl", std::string_view(*text));
-    if (!schema.ok()) return schema.error();
-    const auto channel =
-        writer.add_channel(name, "cdr", *schema, {{"offered_qos_profiles", kQosProfile}});
-    if (!channel.ok()) return channel.error();
-    channel_ = *channel;
-    return {};
-  }
-
-  Status write(mcap::Writer& writer, Time time, const T& message) {
-    const Cdr cdr = to_cdr(message);
-    const mcap::Timestamp stamp = mcap::to_timestamp(time);
-    return writer.write(mcap::Message{channel_, count_++, stamp, stamp, cdr});
-  }
-
-  std::uint32_t count() const { return count_; }
-
- private:
-  std::uint16_t channel_ = 0;
-  std::uint32_t count_ = 0;
-};
-
 Status write_all(const carmen::Log& log, double laser_height, mcap::Writer& writer,
                  Conversion& conversion) {
-  Topic<sensor_msgs::msg::LaserScan> scans;
-  Topic<nav_msgs::msg::Odometry> poses;
+  TopicWriter<sensor_msgs::msg::LaserScan> scans;
+  TopicWriter<nav_msgs::msg::Odometry> poses;
   if (const Status done = scans.open(writer, "scan"); !done.ok()) return done;
   if (const Status done = poses.open(writer, "odometry"); !done.ok()) return done;
   if (const Status done = writer.write(mcap::Metadata{

@@ -12,6 +12,9 @@
 #include "components/phone_sim/phone_sim_command.hpp"
 #endif
 #include "components/introspection/introspection_commands.hpp"
+#ifdef SWIFTLET_WITH_SLAM
+#include "components/lidar_mapper/map_commands.hpp"
+#endif
 #include "components/launch/launch_command.hpp"
 #include "components/replay/replay_command.hpp"
 #include "components/runtime/component.hpp"
@@ -67,6 +70,9 @@ int main(int argc, char** argv) {
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
+#ifdef SWIFTLET_WITH_SLAM
+  swiftlet::add_map(app);
+#endif
   swiftlet::add_topic_commands(app);
   swiftlet::add_component_commands(app);
   swiftlet::add_param_commands(app);

@@ -5,8 +5,10 @@
 
 #include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
+#include "components/lidar_mapper/map_file.hpp"
 #include "components/lidar_mapper/mapper_params.hpp"
-#include "components/lidar_mapper/slam_mapper.hpp"
+#include "components/lidar_mapper/scan_locator.hpp"
+#include "components/lidar_mapper/scan_message.hpp"
 #include "components/static_transforms.hpp"
 #include "components/topics.hpp"
 #include "estimation/geometry/pose_history.hpp"
@@ -16,7 +18,6 @@ namespace swiftlet {
 namespace {
 
 using namespace std::chrono_literals;
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 /// Scans that wait for their pose; more are a sign that odometry has stopped.
 constexpr std::size_t kMaxWaiting = 20;
@@ -24,31 +25,15 @@ constexpr std::size_t kMaxWaiting = 20;
 constexpr int kOutsideToWarn = 300;
 constexpr Duration kAlivePeriod = 50ms;  // large maps take their time
 constexpr Duration kPathPeriod = 1s;
-constexpr double kLongestTurn = 1.0;  // of a scanner that is to be believed [s]
-/// Variance of what a planar scanner does not see: height [m^2], roll and pitch [rad^2].
-constexpr double kUnseen = 1e6;
+constexpr Duration kSavePeriod = 60s;
 
-LaserScan from_msg(const sensor_msgs::msg::LaserScan& message) {
-  LaserScan scan;
-  scan.angle_min = message.angle_min();
-  scan.angle_increment = message.angle_increment();
-  scan.time_increment = message.time_increment();
-  scan.range_min = message.range_min();
-  scan.range_max = message.range_max();
-  scan.ranges = message.ranges();
-  return scan;
-}
-
-/// What is left of an attitude without its yaw.
-Eigen::Quaterniond levelled(const Eigen::Quaterniond& q) {
-  return from_yaw(-yaw_of(q)) * q;
-}
-Pose2 planar(const PoseHistory::Pose& pose) {
-  return {pose.position.head<2>(), yaw_of(pose.attitude)};
-}
-
-PoseHistory::Pose operator*(const PoseHistory::Pose& a, const StaticTransforms::Pose& b) {
-  return {a.position + a.attitude * b.position, a.attitude * b.attitude};
+/// A place that was mapped before, as the parameters say. What is wrong with the file is a fault of
+/// the configuration.
+std::optional<KnownPlace> known_place(const MapperParams& params) {
+  if (params.load.empty()) return std::nullopt;
+  auto map = load_map_file(params.load);
+  if (!map.ok()) throw ConfigError("lidar_mapper.load: " + map.error().reason);
+  return KnownPlace{std::move(map).value(), params.stay, params.first_pose};
 }
 
 /// An occupancy map from scans, with the scanner where tf_static says that it sits. At the poses of
@@ -94,25 +79,38 @@ class LidarMapper : public Component {
     });
     every(from_seconds(1.0 / params_.map_rate_hz), [this](Time now) {
       if (!std::exchange(changed_, false)) return;
-      map_.publish(to_msg(slam_ ? slam_->grid() : grid_, now));
+      map_.publish(to_msg(locator_ ? locator_->slam().grid() : grid_, now));
     });
     if (params_.slam) begin_slam();
+  }
+  ~LidarMapper() override {
+    if (!params_.save.empty()) save();
   }
 
  private:
   void begin_slam() {
-    slam_.emplace(params_.lidar_slam, params_.grid, mailbox(), *context().executor);
+    locator_.emplace(params_, mailbox(), *context().executor, known_place(params_));
+    changed_ = !params_.load.empty();
     lidar_pose_ = advertise(topic::lidar_pose);
     lidar_path_ = advertise(topic::lidar_path);
     every(kPathPeriod, [this](Time now) {
-      if (std::exchange(path_changed_, false)) publish_path(now);
+      if (std::exchange(path_changed_, false)) lidar_path_.publish(locator_->path(now));
     });
+    if (!params_.save.empty()) every(kSavePeriod, [this](Time) { save(); });
+  }
+
+  /// What is known by now, into the file that the parameters name.
+  void save() {
+    if (!std::exchange(worth_saving_, false)) return;
+    const SlamMapper& slam = locator_->slam();
+    const Status saved = save_map_file(slam.map(), slam.grid(), now(), params_.save);
+    if (!saved.ok()) log()->error("the map is not saved: {}", saved.error().reason);
   }
 
   /// Scans whose pose is known by now, or that have to do without, go into the map.
   void insert_waiting() {
     while (!waiting_.empty()) {
-      const bool alone = slam_ && poses_.empty();
+      const bool alone = locator_ && poses_.empty();
       if (!alone && (poses_.empty() || stamp(waiting_.front()) > poses_.newest())) return;
       // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
       const std::string& frame = waiting_.front().header().frame_id();
@@ -133,7 +131,7 @@ class LidarMapper : public Component {
     const std::string& frame = scan.header().frame_id();
     const auto mount = mounts_.find(odometry_frame_, frame);
     const bool worth_a_line = is_worth_a_line(++dropped_);
-    if (slam_ && mount) {
+    if (locator_ && mount) {
       if (worth_a_line) log()->warn("no odometry at the time of {} scans so far", dropped_);
       insert(scan, *mount);
     } else if (worth_a_line && (poses_.empty() || mount)) {
@@ -146,13 +144,13 @@ class LidarMapper : public Component {
   }
 
   void insert(const sensor_msgs::msg::LaserScan& message, const StaticTransforms::Pose& mount) {
-    const auto body = poses_.at(stamp(message), from_seconds(params_.max_odometry_gap));
-    if (slam_) {
-      locate(message, body, mount);
+    if (locator_) {
+      locate(message, mount);
       return;
     }
+    const auto body = poses_.at(stamp(message), from_seconds(params_.max_odometry_gap));
     if (!body) return;  // taken before the first odometry, or in a gap of it
-    const PoseHistory::Pose scanner = *body * mount;
+    const PoseHistory::Pose scanner = scanner_on(*body, mount);
     const auto inserted = grid_.insert(from_msg(message), scanner.position, scanner.attitude);
     if (!inserted.ok()) {
       if (is_worth_a_line(++refused_)) {
@@ -170,84 +168,21 @@ class LidarMapper : public Component {
     changed_ = true;
   }
 
-  void locate(const sensor_msgs::msg::LaserScan& message,
-              const std::optional<PoseHistory::Pose>& body, const StaticTransforms::Pose& mount) {
-    const LaserScan scan = from_msg(message);
-    std::optional<Pose2> odometry;
-    if (body) {
-      const PoseHistory::Pose scanner = *body * mount;
-      odometry = planar(scanner);
-      motion_ = motion_during(message, scanner, mount);
-    } else if (poses_.empty()) {
-      motion_.height = 0.5 * (params_.grid.min_height + params_.grid.max_height);
-    }
-    const LidarSlam::Update update = slam_->add(stamp(message), scan, motion_, odometry);
-    if (update.lost && is_worth_a_line(++lost_)) {
+  void locate(const sensor_msgs::msg::LaserScan& scan, const StaticTransforms::Pose& mount) {
+    const bool was_located = locator_->slam().located();
+    const auto pose = locator_->locate(scan, poses_, mount);
+    if (locator_->lost() && is_worth_a_line(++lost_)) {
       log()->warn("a scan looks like nothing that is known; {} ({} so far)",
-                  odometry ? "odometry is followed" : "the last pose is kept", lost_);
+                  poses_.empty() ? "the last pose is kept" : "odometry is followed", lost_);
     }
-    publish_pose(message, update, mount);
-    changed_ = path_changed_ = true;
-  }
-
-  /// How the scanner was held, and how it moved until the scan was over, by odometry.
-  ScannerMotion motion_during(const sensor_msgs::msg::LaserScan& message,
-                              const PoseHistory::Pose& scanner,
-                              const StaticTransforms::Pose& mount) const {
-    ScannerMotion motion;
-    motion.q_HL = levelled(scanner.attitude);
-    motion.height = scanner.position.z();
-    motion.min_height = params_.grid.min_height;
-    motion.max_height = params_.grid.max_height;
-    const double seconds = static_cast<double>(message.time_increment()) *
-                           static_cast<double>(message.ranges().size());
-    if (!(seconds > 0.0 && seconds < kLongestTurn)) return motion;
-    // What odometry has by now may end before the scan does.
-    const Time end = std::min(poses_.newest(), stamp(message) + from_seconds(seconds));
-    const auto body = poses_.at(end, from_seconds(params_.max_odometry_gap));
-    const double passed = to_seconds(end - stamp(message));
-    if (!body || !(passed > 0.0)) return motion;
-    const Pose2 moved = planar(scanner).inverse() * planar(*body * mount);
-    motion.velocity = moved.position / passed;
-    motion.yaw_rate = moved.yaw / passed;
-    return motion;
-  }
-
-  void publish_pose(const sensor_msgs::msg::LaserScan& scan, const LidarSlam::Update& update,
-                    const StaticTransforms::Pose& mount) {
-    geometry_msgs::msg::PoseWithCovarianceStamped message;
-    message.header(make_header(stamp(scan), frame::kMap));
-    const PoseHistory::Pose body = body_at(update.pose, mount);
-    message.pose().pose(to_pose(body.position, body.attitude));
-    RowMajor6d covariance = kUnseen * RowMajor6d::Identity();
-    constexpr int kSeen[] = {0, 1, 5};  // x, y, yaw
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) covariance(kSeen[i], kSeen[j]) = update.covariance(i, j);
+    const bool located = locator_->slam().located();
+    if (located != was_located) {
+      log()->info("{}", located ? "found itself in the map that was loaded"
+                                : "lost in the map that was loaded; looks everywhere");
     }
-    Eigen::Map<RowMajor6d>(message.pose().covariance().data()) = covariance;
-    lidar_pose_.publish(message);
-    last_mount_ = mount;
-  }
-
-  /// Of the body, when the scanner's levelled frame is at `pose`.
-  PoseHistory::Pose body_at(const Pose2& pose, const StaticTransforms::Pose& mount) const {
-    const Eigen::Quaterniond q_WL = from_yaw(pose.yaw) * motion_.q_HL;
-    const Eigen::Quaterniond q_WB = q_WL * mount.attitude.conjugate();
-    const Eigen::Vector3d p_WL(pose.position.x(), pose.position.y(), motion_.height);
-    return {p_WL - q_WB * mount.position, q_WB};
-  }
-
-  void publish_path(Time now) {
-    nav_msgs::msg::Path path;
-    path.header(make_header(now, frame::kMap));
-    for (const LidarSlam::TimedPose& timed : slam_->slam().trajectory()) {
-      geometry_msgs::msg::PoseStamped pose;
-      pose.header(make_header(timed.time, frame::kMap));
-      const PoseHistory::Pose body = body_at(timed.pose, last_mount_);
-      pose.pose(to_pose(body.position, body.attitude));
-      path.poses().push_back(pose);
-    }
-    lidar_path_.publish(path);
+    // The first pose after it was found is still one of its own map.
+    if (was_located && located) lidar_pose_.publish(pose);
+    changed_ = path_changed_ = worth_saving_ = true;
   }
 
   MapperParams params_;
@@ -263,12 +198,11 @@ class LidarMapper : public Component {
   bool path_changed_ = false;
   bool adopted_ = false;  // another instance's map
   int outside_ = 0;       // scans without a beam inside the height band, before the first with one
-  ScannerMotion motion_;  // at the last scan
-  StaticTransforms::Pose last_mount_;
   Publisher<nav_msgs::msg::OccupancyGrid> map_;
   Publisher<geometry_msgs::msg::PoseWithCovarianceStamped> lidar_pose_;
   Publisher<nav_msgs::msg::Path> lidar_path_;
-  std::optional<SlamMapper> slam_;
+  std::optional<ScanLocator> locator_;
+  bool worth_saving_ = false;
 };
 
 const RegisterComponent<LidarMapper> kRegistered{

@@ -3,6 +3,27 @@
 #include "components/lidar_mapper/mapper_params.hpp"
 
 namespace swiftlet {
+namespace {
+
+void read_known_place(const Config& config, MapperParams& params) {
+  const auto read_file = [&config, &params](const std::string& key, std::filesystem::path& file) {
+    std::string name;
+    config.read(key, name);
+    if (name.empty()) return;
+    if (!params.slam) config.fail(key, "map files are for 'slam: true'");
+    file = config.folder() / name;
+  };
+  read_file("load", params.load);
+  read_file("save", params.save);
+  config.read("stay", params.stay);
+  std::vector<double> pose;
+  config.read("first_pose", pose);
+  if (pose.empty()) return;
+  if (pose.size() != 3) config.fail("first_pose", "is [x, y, yaw] in metres and radians");
+  params.first_pose = Pose2{{pose[0], pose[1]}, pose[2]};
+}
+
+}  // namespace
 
 MapperParams read_mapper_params(const Config& config) {
   MapperParams params;
@@ -30,6 +51,7 @@ MapperParams read_mapper_params(const Config& config) {
   config.read("keyframe_distance", slam.keyframe_distance, kPositive);
   config.read("keyframe_angle", slam.keyframe_angle, kPositive);
   config.read("loop_radius", slam.loops.radius, kPositive);
+  read_known_place(config, params);
   return params;
 }
 

@@ -70,19 +70,23 @@ LidarSlam::Prediction LidarSlam::predict(Time time, const std::optional<Pose2>& 
   return prediction;
 }
 
-std::vector<int> LidarSlam::recent_near(const Eigen::Vector2d& place) const {
+/// The last ones that are near; in a map that stays as it is, all that are near. There the place is
+/// taken to the metre, so that they are the same ones for a while.
+std::vector<int> LidarSlam::keyframes_for(const Eigen::Vector2d& place) const {
   std::vector<int> which;
   const int count = static_cast<int>(keyframes_.size());
-  for (int i = std::max(0, count - params_.recent_keyframes); i < count; ++i) {
+  const int first = map_is_fixed_ ? 0 : std::max(0, count - params_.recent_keyframes);
+  const Eigen::Vector2d center = map_is_fixed_ ? place.array().round().matrix() : place;
+  for (int i = first; i < count; ++i) {
     const Eigen::Vector2d& position = poses_[static_cast<std::size_t>(i)].position;
-    if ((position - place).norm() < params_.recent_radius) which.push_back(i);
+    if ((position - center).norm() < params_.recent_radius) which.push_back(i);
   }
   return which;
 }
 
 /// With the last keyframes, or, where those do not help, with all that is near.
 std::optional<ScanMatch> LidarSlam::match(const Keyframe& scan, const Prediction& prediction) {
-  const std::vector<int> recent = recent_near(prediction.pose.position);
+  const std::vector<int> recent = keyframes_for(prediction.pose.position);
   if (!recent_map_ || recent != recent_map_of_) {
     recent_map_.emplace(keyframes_, poses_, recent);
     recent_map_of_ = recent;
@@ -123,8 +127,8 @@ LidarSlam::Update LidarSlam::add(Time time, ScanPoints points,
   }
   const Prediction prediction = predict(time, odometry);
   const auto found = match(scan, prediction);
-  const int last = static_cast<int>(keyframes_.size()) - 1;
-  const Pose2& last_pose = poses_.back();
+  const int last = map_is_fixed_ ? scans_.back().keyframe : static_cast<int>(keyframes_.size()) - 1;
+  const Pose2 last_pose = poses_[static_cast<std::size_t>(last)];
   PoseConstraint edge{last, last + 1, Pose2{}, Matrix3d::Zero(), false};
   if (found) {
     update.pose = found->pose();
@@ -138,9 +142,10 @@ LidarSlam::Update LidarSlam::add(Time time, ScanPoints points,
     edge.information = squared(prediction.sigma).inverse();
   }
   edge.relative = last_pose.inverse() * update.pose;
-  update.is_keyframe = update.overlap < 1.2 * params_.least_overlap ||
-                       edge.relative.position.norm() > params_.keyframe_distance ||
-                       std::abs(edge.relative.yaw) > params_.keyframe_angle;
+  update.is_keyframe =
+      !map_is_fixed_ && (update.overlap < 1.2 * params_.least_overlap ||
+                         edge.relative.position.norm() > params_.keyframe_distance ||
+                         std::abs(edge.relative.yaw) > params_.keyframe_angle);
   if (!update.is_keyframe) {
     scans_.push_back({time, last, edge.relative, odometry});
     return update;
@@ -200,6 +205,42 @@ void LidarSlam::apply(const BackEndResult& result) {
   for (std::size_t i = static_cast<std::size_t>(job_keyframes_); i < poses_.size(); ++i) {
     poses_[i] = correction * poses_[i];
   }
+  recent_map_.reset();
+}
+
+void LidarSlam::enter(const SlamGraph& joined, int own) {
+  const int offset = joined.size() - own;
+  const Pose2 correction =
+      joined.poses.back() * poses_[static_cast<std::size_t>(own - 1)].inverse();
+  std::vector<KeyframePtr> keyframes = joined.keyframes;
+  std::vector<Pose2> poses = joined.poses;
+  for (std::size_t i = static_cast<std::size_t>(own); i < keyframes_.size(); ++i) {
+    keyframes.push_back(keyframes_[i]);
+    poses.push_back(correction * poses_[i]);
+  }
+  std::vector<PoseConstraint> constraints = joined.constraints;
+  for (PoseConstraint constraint : constraints_) {
+    if (std::max(constraint.from, constraint.to) < own) continue;
+    constraint.from += offset;
+    constraint.to += offset;
+    constraints.push_back(constraint);
+  }
+  keyframes_ = std::move(keyframes);
+  poses_ = std::move(poses);
+  constraints_ = std::move(constraints);
+  for (ScanNode& scan : scans_) scan.keyframe += offset;
+  first_new_ += offset;
+  recent_map_.reset();
+}
+
+void LidarSlam::stay_in(const SlamGraph& map, const Pose2& T_map_own) {
+  const Pose2 to_first = map.poses.front().inverse() * T_map_own;
+  for (ScanNode& scan : scans_) scan = {scan.time, 0, to_first * pose_of(scan), scan.odometry};
+  keyframes_ = map.keyframes;
+  poses_ = map.poses;
+  constraints_ = map.constraints;
+  first_new_ = map.size();
+  map_is_fixed_ = true;
   recent_map_.reset();
 }
 

@@ -9,6 +9,7 @@
 #include "perception/slam/loop_closer.hpp"
 #include "perception/slam/neighbour_aligner.hpp"
 #include "perception/slam/pose_graph.hpp"
+#include "perception/slam/slam_graph.hpp"
 
 namespace swiftlet {
 
@@ -87,6 +88,13 @@ class LidarSlam {
   /// Keyframes that have come since the job was taken move along with its last one.
   void apply(const BackEndResult& result);
 
+  /// Goes on in a larger map, of which the last `own` keyframes are the first of this one: what it
+  /// has seen since moves along. No job may be under way.
+  void enter(const SlamGraph& joined, int own);
+  /// Finds itself in a map from now on, and adds nothing to it. `T_map_own`: where the frame is in
+  /// which it was until now. No job may be under way, and none comes any more.
+  void stay_in(const SlamGraph& map, const Pose2& T_map_own);
+
   const std::vector<KeyframePtr>& keyframes() const { return keyframes_; }
   /// Of the keyframes, as known now.
   const std::vector<Pose2>& poses() const { return poses_; }
@@ -115,13 +123,14 @@ class LidarSlam {
   };
   Prediction predict(Time time, const std::optional<Pose2>& odometry) const;
   std::optional<ScanMatch> match(const Keyframe& scan, const Prediction& prediction);
-  std::vector<int> recent_near(const Eigen::Vector2d& place) const;
+  std::vector<int> keyframes_for(const Eigen::Vector2d& place) const;
   void add_keyframe(Keyframe keyframe, const Pose2& pose);
   Pose2 pose_of(const ScanNode& scan) const {
     return poses_[static_cast<std::size_t>(scan.keyframe)] * scan.relative;
   }
 
   Params params_;
+  bool map_is_fixed_ = false;
   std::vector<KeyframePtr> keyframes_;
   std::vector<Pose2> poses_;
   std::vector<PoseConstraint> constraints_;

@@ -25,8 +25,7 @@ bool ScanMap::has_moved(const std::vector<Pose2>& poses) const {
   return false;
 }
 
-void ScanMap::update(const std::vector<std::shared_ptr<const LevelledScan>>& scans,
-                     const std::vector<Pose2>& poses) {
+void ScanMap::update(const std::vector<LevelledScanPtr>& scans, const std::vector<Pose2>& poses) {
   const std::size_t count = std::min(scans.size(), poses.size());
   if (count < drawn_at_.size() || has_moved(poses)) {
     grid_ = OccupancyGrid(grid_.params());
@@ -35,9 +34,10 @@ void ScanMap::update(const std::vector<std::shared_ptr<const LevelledScan>>& sca
     ++redrawn_;
   }
   for (std::size_t i = drawn_at_.size(); i < count; ++i) {
-    const Eigen::Vector3d p_WL(poses[i].position.x(), poses[i].position.y(), scans[i]->height);
+    const Eigen::Vector3d p_WL(poses[i].position.x(), poses[i].position.y(),
+                               scans[i]->motion.height);
     const Eigen::AngleAxisd yaw(poses[i].yaw, Eigen::Vector3d::UnitZ());
-    const auto inserted = grid_.insert(scans[i]->scan, p_WL, yaw * scans[i]->q_HL);
+    const auto inserted = grid_.insert(scans[i]->scan, p_WL, yaw * scans[i]->motion.q_HL);
     refused_ += inserted.ok() ? 0 : 1;
     drawn_at_.push_back(poses[i]);
   }

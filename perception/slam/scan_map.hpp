@@ -7,15 +7,21 @@
 
 #include "estimation/geometry/pose2.hpp"
 #include "perception/occupancy_grid.hpp"
+#include "perception/slam/slam_graph.hpp"
 
 namespace swiftlet {
 
 /// A scan as a map is drawn with it again, wherever it is found to have been taken.
 struct LevelledScan {
   LaserScan scan;
-  /// Attitude of the scanner in a frame that is level and looks the same way.
-  Eigen::Quaterniond q_HL = Eigen::Quaterniond::Identity();
-  double height = 0.0;  ///< of the scanner [m]
+  ScannerMotion motion;
+};
+using LevelledScanPtr = std::shared_ptr<const LevelledScan>;
+
+/// What SLAM knows of a place, and the scans to draw it with: one a keyframe.
+struct SlamMap {
+  SlamGraph graph;
+  std::vector<LevelledScanPtr> scans;
 };
 
 /// An occupancy map of scans whose poses are known better and better: those of a pose graph. What
@@ -27,8 +33,7 @@ class ScanMap {
 
   /// Draws the map of `scans` at `poses` of their levelled frames, one each. Scans that the grid
   /// refuses are left out, and counted.
-  void update(const std::vector<std::shared_ptr<const LevelledScan>>& scans,
-              const std::vector<Pose2>& poses);
+  void update(const std::vector<LevelledScanPtr>& scans, const std::vector<Pose2>& poses);
 
   const OccupancyGrid& grid() const { return grid_; }
   int refused() const { return refused_; }

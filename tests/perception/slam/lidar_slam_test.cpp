@@ -8,107 +8,12 @@
 #include <cmath>
 #include <random>
 
-#include "tests/perception/slam/floor_plan.hpp"
+#include "tests/perception/slam/drive.hpp"
 
 namespace swiftlet::test {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kRate_hz = 4.5;
-constexpr double kSpeed = 0.6;  // [m/s]
-
-Time at(double seconds) {
-  return Time{} + from_seconds(seconds);
-}
-
-/// The way around the block, turning on the spot at its corners, `rounds` times.
-std::vector<Pose2> way_around(double rounds) {
-  const std::vector<Vector2d> corners{{1.5, 1.5}, {22.3, 1.6}, {22.2, 12.4}, {1.7, 12.3}};
-  std::vector<Pose2> way;
-  const double step = kSpeed / kRate_hz, turn = 0.8 / kRate_hz;
-  double yaw = 0.0;
-  const int legs = static_cast<int>(std::lround(4 * rounds));
-  for (int leg = 0; leg < legs; ++leg) {
-    const Vector2d from = corners[static_cast<std::size_t>(leg % 4)];
-    const Vector2d to = corners[static_cast<std::size_t>((leg + 1) % 4)];
-    const double heading = std::atan2((to - from).y(), (to - from).x());
-    for (; std::abs(wrap_angle(heading - yaw)) > turn; yaw = wrap_angle(yaw + turn)) {
-      way.push_back({from, yaw});
-    }
-    yaw = heading;
-    const double length = (to - from).norm();
-    for (double d = 0.0; d < length; d += step) {
-      way.push_back({from + (to - from) * (d / length), yaw});
-    }
-  }
-  return way;
-}
-
-/// Drives along the poses of `way`; the back end hears of each job and answers `late` scans later.
-class Drive {
- public:
-  explicit Drive(unsigned seed) : random_(seed) {}
-
-  LidarSlam::Update see(const Pose2& pose, double seconds,
-                        const std::optional<Pose2>& odometry = std::nullopt) {
-    const LaserScan scan = plan_.scan(pose, 360, field_of_view, 0.01, random_);
-    const auto update = slam.add(at(seconds), scan_points(scan), odometry);
-    truth.push_back(pose);
-    live.push_back(slam.trajectory().back().pose);
-    lost += update.lost ? 1 : 0;
-    if (!result_ && slam.has_job()) {
-      result_ = LidarSlam::run_back_end(slam.take_job());
-      due_ = truth.size() + late;
-    }
-    if (result_ && truth.size() >= due_) {
-      closures += result_->closures.size();
-      slam.apply(*result_);
-      result_.reset();
-    }
-    return update;
-  }
-  void along(const std::vector<Pose2>& way) {
-    for (const Pose2& pose : way) see(pose, static_cast<double>(truth.size()) / kRate_hz);
-  }
-
-  /// Distances between where scans were taken and where they are thought to be [m].
-  std::vector<double> errors(const std::vector<Pose2>& poses) const {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Pose2 true_pose = truth.front().inverse() * truth[i];
-      result.push_back((poses[i].position - true_pose.position).norm());
-    }
-    return result;
-  }
-  std::vector<Pose2> now() const {
-    std::vector<Pose2> poses;
-    for (const auto& timed : slam.trajectory()) poses.push_back(timed.pose);
-    return poses;
-  }
-
-  LidarSlam slam;
-  double field_of_view = 1.5 * M_PI;
-  std::size_t late = 0;
-  std::vector<Pose2> truth, live;
-  int lost = 0;
-  std::size_t closures = 0;
-
- private:
-  FloorPlan plan_ = office_floor();
-  std::mt19937 random_;
-  std::optional<LidarSlam::BackEndResult> result_;
-  std::size_t due_ = 0;
-};
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-double largest(const std::vector<double>& values) {
-  return *std::max_element(values.begin(), values.end());
-}
 
 TEST(LidarSlam, WithoutOdometryItGoesAroundTheBlockAndKnowsWhereItBegan) {
   Drive drive(1);

@@ -18,7 +18,7 @@ class ScanMapTest : public testing::Test {
       poses_.push_back({{1.5 + 0.7 * i, 1.4}, 0.1 * i});
       auto scan = std::make_shared<LevelledScan>();
       scan->scan = office_floor().scan(poses_.back(), 360, 2 * M_PI, 0.01, random);
-      scan->height = 1.0;
+      scan->motion.height = 1.0;
       scans_.push_back(std::move(scan));
     }
   }
@@ -29,7 +29,7 @@ class ScanMapTest : public testing::Test {
     return map.grid().evidence();
   }
   OccupancyGrid::Params params_;
-  std::vector<std::shared_ptr<const LevelledScan>> scans_;
+  std::vector<LevelledScanPtr> scans_;
   std::vector<Pose2> poses_;
 };
 

@@ -84,7 +84,7 @@ TEST(PathPlanner, ThousandsOfRandomMapsAgreeWithDijkstra) {
     }
   }
   EXPECT_GT(found, kTrials * 3 / 10);
-  EXPECT_GT(blocked, kTrials / 40);
+  EXPECT_GE(blocked, kTrials / 40);
 }
 
 TEST(PathPlanner, CrossesDoorwaysThroughTheMiddle) {

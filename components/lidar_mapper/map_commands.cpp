@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/lidar_mapper/map_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/lidar_mapper/map_file.hpp"
+#include "perception/map_io.hpp"
+#include "perception/slam/map_joiner.hpp"
+
+namespace swiftlet {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUnusable = 2;
+
+[[noreturn]] void fail(int exit_code, const std::string& reason) {
+  fmt::print(stderr, "error: {}\n", reason);
+  throw CLI::RuntimeError(exit_code);
+}
+
+SlamMap load(const std::string& file) {
+  auto map = load_map_file(file);
+  if (!map.ok()) fail(kUnusable, map.error().reason);
+  return std::move(map).value();
+}
+
+OccupancyGrid draw(const SlamMap& map, double resolution) {
+  OccupancyGrid::Params params;
+  params.resolution = resolution;
+  params.clear_without_return = false;
+  ScanMap drawing(params);
+  drawing.update(map.scans, map.graph.poses);
+  return drawing.grid();
+}
+
+double way_of(const SlamMap& map) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < map.graph.poses.size(); ++i) {
+    length += (map.graph.poses[i].position - map.graph.poses[i - 1].position).norm();
+  }
+  return length;
+}
+
+void run_info(const std::string& file, bool json) {
+  const SlamMap map = load(file);
+  const OccupancyGrid grid = draw(map, 0.05);
+  const double width = grid.width() * grid.resolution(), height = grid.height() * grid.resolution();
+  if (json) {
+    fmt::print("{}\n", nlohmann::json{{"file", file},
+                                      {"keyframes", map.scans.size()},
+                                      {"constraints", map.graph.constraints.size()},
+                                      {"way_m", way_of(map)},
+                                      {"width_m", width},
+                                      {"height_m", height}}
+                           .dump(2));
+    return;
+  }
+  fmt::print(
+      "{}\nkeyframes    {}\nconstraints  {}\nway          {:.1f} m\nextent       {:.1f} x {:.1f} "
+      "m\n",
+      file, map.scans.size(), map.graph.constraints.size(), way_of(map), width, height);
+}
+
+void run_draw(const std::string& file, const std::string& image, double resolution) {
+  const Status saved = save_map(draw(load(file), resolution), image);
+  if (!saved.ok()) fail(kUnusable, saved.error().reason);
+}
+
+void run_merge(const std::vector<std::string>& files, const std::string& output) {
+  SlamMap merged = load(files.front());
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    const SlamMap other = load(files[i]);
+    const auto frame = find_frame(merged.graph, other.graph);
+    if (!frame) {
+      fail(kFailed, fmt::format("{}: too little of it looks like {}; do they show the same place?",
+                                files[i], i == 1 ? files.front() : "the maps before it"));
+    }
+    merged.graph = join_maps(merged.graph, other.graph, *frame);
+    merged.scans.insert(merged.scans.end(), other.scans.begin(), other.scans.end());
+    fmt::print("{}: at ({:.2f}, {:.2f}) m, turned by {:.1f} deg\n", files[i], frame->position.x(),
+               frame->position.y(), frame->yaw * 180.0 / M_PI);
+  }
+  Time newest = merged.graph.keyframes.front()->time;
+  for (const KeyframePtr& keyframe : merged.graph.keyframes) {
+    newest = std::max(newest, keyframe->time);
+  }
+  const Status saved = save_map_file(merged, draw(merged, 0.05), newest, output);
+  if (!saved.ok()) fail(kUnusable, saved.error().reason);
+}
+
+}  // namespace
+
+void add_map(CLI::App& app) {
+  CLI::App* map = app.add_subcommand("map", "Map files of lidar_mapper: look at them, merge them");
+  map->require_subcommand(1);
+
+  struct Options {
+    std::string file, output;
+    std::vector<std::string> files;
+    double resolution = 0.05;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* info = map->add_subcommand("info", "What a map file holds");
+  info->add_option("file", options->file, "Map file (.mcap)")->required();
+  info->add_flag("--json", options->json, "For programs");
+  info->callback([options] { run_info(options->file, options->json); });
+
+  CLI::App* draw = map->add_subcommand("draw", "Draw it: .pgm with .yaml beside it, or .png");
+  draw->add_option("file", options->file, "Map file (.mcap)")->required();
+  draw->add_option("-o,--output", options->output, "Image to write")->required();
+  draw->add_option("--resolution", options->resolution, "Of a cell [m]")
+      ->check(CLI::Range(0.005, 1.0));
+  draw->callback([options] { run_draw(options->file, options->output, options->resolution); });
+
+  CLI::App* merge = map->add_subcommand(
+      "merge", "Several maps as one, in the frame of the first; where the others lie is found out");
+  merge->add_option("files", options->files, "Map files (.mcap), two or more")
+      ->required()
+      ->expected(2, -1);
+  merge->add_option("-o,--output", options->output, "Map file to write")->required();
+  merge->callback([options] { run_merge(options->files, options->output); });
+}
+
+}  // namespace swiftlet
