@@ -10,12 +10,15 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "components/lidar_mapper/map_file.hpp"
+#include "components/plot/figure.hpp"
 #include "perception/map_io.hpp"
+#include "perception/rooms/room_survey.hpp"
 #include "perception/slam/map_joiner.hpp"
 
 namespace swiftlet {
@@ -72,6 +75,66 @@ void run_info(const std::string& file, bool json) {
       file, map.scans.size(), map.graph.constraints.size(), way_of(map), width, height);
 }
 
+ScanPoints surfaces_of(const SlamGraph& graph) {
+  std::vector<int> all(graph.keyframes.size());
+  std::iota(all.begin(), all.end(), 0);
+  return surfaces_of(graph.keyframes, graph.poses, all);
+}
+
+/// The surfaces in black, and beside each room's middle what it measures.
+Status draw_rooms(const std::vector<Room>& rooms, const ScanPoints& surfaces,
+                  const std::string& image) {
+  plot::Figure figure;
+  figure.panel_width = figure.panel_height = 900;
+  plot::Panel& panel = figure.panel("", "x [m]", "y [m]");
+  panel.equal_aspect = true;
+  panel.legend = plot::Legend::kNone;
+  constexpr std::size_t kDots = 20'000;  // more make no better picture
+  const std::size_t step = 1 + surfaces.size() / kDots;
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < surfaces.size(); i += step) {
+    x.push_back(surfaces[i].position.x());
+    y.push_back(surfaces[i].position.y());
+  }
+  panel.add("", x, y, {plot::kBlack, plot::Dash::kNoLine, plot::Marker::kDot});
+  for (const Room& room : rooms) {
+    panel.notes.push_back(
+        {room.center.x(), room.center.y(),
+         fmt::format("{:.2f} m2, {:.2f} x {:.2f} m", room.area, room.length, room.width)});
+  }
+  return figure.save(image);
+}
+
+void run_rooms(const std::string& file, const std::string& image, double widest_door, bool json) {
+  const SlamMap map = load(file);
+  const ScanPoints surfaces = surfaces_of(map.graph);
+  RoomSurveyParams params;
+  params.widest_door = widest_door;
+  const std::vector<Room> rooms = survey_rooms(draw(map, 0.05), surfaces, params);
+  if (json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Room& room : rooms) {
+      list.push_back({{"x_m", room.center.x()},
+                      {"y_m", room.center.y()},
+                      {"area_m2", room.area},
+                      {"length_m", room.length},
+                      {"width_m", room.width},
+                      {"axis_rad", room.axis}});
+    }
+    fmt::print("{}\n", list.dump(2));
+  } else {
+    fmt::print("room     at [m]            area [m2]   length [m]   width [m]\n");
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      fmt::print("{:<4}  {:>7.2f} {:>7.2f}  {:>12.2f} {:>12.3f} {:>11.3f}\n", i + 1,
+                 rooms[i].center.x(), rooms[i].center.y(), rooms[i].area, rooms[i].length,
+                 rooms[i].width);
+    }
+  }
+  if (image.empty()) return;
+  const Status drawn = draw_rooms(rooms, surfaces, image);
+  if (!drawn.ok()) fail(kFailed, drawn.error().reason);
+}
+
 void run_draw(const std::string& file, const std::string& image, double resolution) {
   const Status saved = save_map(draw(load(file), resolution), image);
   if (!saved.ok()) fail(kUnusable, saved.error().reason);
@@ -108,7 +171,7 @@ void add_map(CLI::App& app) {
   struct Options {
     std::string file, output;
     std::vector<std::string> files;
-    double resolution = 0.05;
+    double resolution = 0.05, widest_door = RoomSurveyParams().widest_door;
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
@@ -123,6 +186,17 @@ void add_map(CLI::App& app) {
   draw->add_option("--resolution", options->resolution, "Of a cell [m]")
       ->check(CLI::Range(0.005, 1.0));
   draw->callback([options] { run_draw(options->file, options->output, options->resolution); });
+
+  CLI::App* rooms =
+      map->add_subcommand("rooms", "Its rooms, measured: area, and from wall to wall both ways");
+  rooms->add_option("file", options->file, "Map file (.mcap)")->required();
+  rooms->add_option("--widest-door", options->widest_door, "What is narrower parts rooms [m]")
+      ->check(CLI::Range(0.2, 10.0));
+  rooms->add_option("--draw", options->output, "Picture to write (.png)");
+  rooms->add_flag("--json", options->json, "For programs");
+  rooms->callback([options] {
+    run_rooms(options->file, options->output, options->widest_door, options->json);
+  });
 
   CLI::App* merge = map->add_subcommand(
       "merge", "Several maps as one, in the frame of the first; where the others lie is found out");

@@ -10,19 +10,6 @@ namespace {
 
 constexpr std::size_t kSparsePoints = 120;
 
-ScanPoints gather(const std::vector<KeyframePtr>& keyframes, const std::vector<Pose2>& poses,
-                  const std::vector<int>& which) {
-  ScanPoints all;
-  for (const int i : which) {
-    const Pose2& pose = poses[static_cast<std::size_t>(i)];
-    const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw).toRotationMatrix();
-    for (const SurfacePoint& p : keyframes[static_cast<std::size_t>(i)]->points) {
-      all.push_back({pose.position + R * p.position, R * p.normal});
-    }
-  }
-  return all;
-}
-
 std::vector<Eigen::Vector2d> positions(const ScanPoints& points) {
   std::vector<Eigen::Vector2d> result;
   result.reserve(points.size());
@@ -42,9 +29,22 @@ Keyframe make_keyframe(Time time, ScanPoints points, const std::optional<Pose2>&
   return keyframe;
 }
 
+ScanPoints surfaces_of(const std::vector<KeyframePtr>& keyframes, const std::vector<Pose2>& poses,
+                       const std::vector<int>& which) {
+  ScanPoints all;
+  for (const int i : which) {
+    const Pose2& pose = poses[static_cast<std::size_t>(i)];
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw).toRotationMatrix();
+    for (const SurfacePoint& p : keyframes[static_cast<std::size_t>(i)]->points) {
+      all.push_back({pose.position + R * p.position, R * p.normal});
+    }
+  }
+  return all;
+}
+
 LocalMap::LocalMap(const std::vector<KeyframePtr>& keyframes, const std::vector<Pose2>& poses,
                    const std::vector<int>& which)
-    : LocalMap(gather(keyframes, poses, which)) {}
+    : LocalMap(surfaces_of(keyframes, poses, which)) {}
 
 LocalMap::LocalMap(ScanPoints points)
     : field_(positions(points), LikelihoodField::Params{}), surfaces_(std::move(points)) {}

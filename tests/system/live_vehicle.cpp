@@ -11,8 +11,6 @@ void LiveVehicleTest::start_vehicle(const std::string& scenario) {
             {"run", "estimator", "flight_controller"},
             {"run", "lidar_mapper", "planner"},
             {"run", "commander"}};
-  // Under a sanitizer a plan would take longer than a planner may be silent.
-  if (kSlowdown > 1) hosts_[2].insert(hosts_[2].end(), {"--param", "planner.samples=20"});
   for (const Arguments& host : hosts_) processes_.push_back(start(host));
 }
 

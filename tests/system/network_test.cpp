@@ -144,7 +144,7 @@ class GroundLinkTest : public SpreadVehicleTest {
   static constexpr int kBudget = 12'000;
 
   void SetUp() override {
-    if (kSlowdown > 10) GTEST_SKIP() << "the thread sanitizer is too slow to fly in real time";
+    if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
     for (const char* host : {"vehicle", "companion", "ground"}) {
       add_host(host);
       if (IsSkipped()) return;
