@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/lidar_mapper/scan_message.hpp"
 #include "components/static_transforms.hpp"
 #include "estimation/geometry/so3.hpp"
 #include "tests/components/component_bench.hpp"
@@ -38,13 +39,8 @@ struct SlamBench : Bench {
     every(topic::scan, 100ms, Time{}, [this, mount](Time now) {
       const LaserScan seen =
           plan_.scan(truth(now + since_) * mount, 360, 1.5 * M_PI, 0.01, random_);
-      sensor_msgs::msg::LaserScan scan;
+      sensor_msgs::msg::LaserScan scan = to_msg(seen);
       scan.header(make_header(now, frame::kLaser));
-      scan.angle_min(static_cast<float>(seen.angle_min));
-      scan.angle_increment(static_cast<float>(seen.angle_increment));
-      scan.range_min(static_cast<float>(seen.range_min));
-      scan.range_max(static_cast<float>(seen.range_max));
-      scan.ranges(seen.ranges);
       return scan;
     });
   }

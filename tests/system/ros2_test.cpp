@@ -294,7 +294,7 @@ TEST_F(SeenByRos2, ImagesCloudsMapsAndPathsHaveTheirShape) {
 }
 
 TEST_F(SeenByRos2, AGoalFromRos2IsFlown) {
-  if (kSlowdown > 10) GTEST_SKIP() << "the thread sanitizer is too slow to fly in real time";
+  if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
   start_vehicle(office());
   Process reader = ros_reader("-", {"ros_discovery_info"});
   ASSERT_TRUE(becomes_ready());

@@ -125,7 +125,7 @@ std::int64_t NetworkTest::counter(const std::string& host, const std::string& in
 }
 
 void SpreadVehicleTest::SetUp() {
-  if (kSlowdown > 10) GTEST_SKIP() << "the thread sanitizer is too slow to fly in real time";
+  if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
   make_three_hosts();
 }
 
