@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 #include <deque>
+#include <functional>
 #include <optional>
 
 #include "components/conversions.hpp"
@@ -84,7 +85,9 @@ class LidarMapper : public Component {
     if (params_.slam) begin_slam();
   }
   ~LidarMapper() override {
-    if (!params_.save.empty()) save();
+    if (params_.save.empty()) return;
+    saving_.reset();  // waits for what is under way
+    if (worth_saving_) report(saver()());
   }
 
  private:
@@ -96,14 +99,22 @@ class LidarMapper : public Component {
     every(kPathPeriod, [this](Time now) {
       if (std::exchange(path_changed_, false)) lidar_path_.publish(locator_->path(now));
     });
-    if (!params_.save.empty()) every(kSavePeriod, [this](Time) { save(); });
+    if (params_.save.empty()) return;
+    saving_.emplace(mailbox(), *context().executor);
+    every(kSavePeriod, [this](Time) {
+      if (!saving_->idle() || !std::exchange(worth_saving_, false)) return;
+      saving_->start(saver(), [this](const Status& saved) { report(saved); });
+    });
   }
 
-  /// What is known by now, into the file that the parameters name.
-  void save() {
-    if (!std::exchange(worth_saving_, false)) return;
+  /// What is known now, ready to be written beside the callbacks: poses do not wait for a disk.
+  std::function<Status()> saver() {
     const SlamMapper& slam = locator_->slam();
-    const Status saved = save_map_file(slam.map(), slam.grid(), now(), params_.save);
+    return [map = slam.map(), grid = slam.grid(), time = now(), file = params_.save] {
+      return save_map_file(map, grid, time, file);
+    };
+  }
+  void report(const Status& saved) {
     if (!saved.ok()) log()->error("the map is not saved: {}", saved.error().reason);
   }
 
@@ -203,6 +214,7 @@ class LidarMapper : public Component {
   Publisher<nav_msgs::msg::Path> lidar_path_;
   std::optional<ScanLocator> locator_;
   bool worth_saving_ = false;
+  std::optional<BackgroundWork> saving_;
 };
 
 const RegisterComponent<LidarMapper> kRegistered{

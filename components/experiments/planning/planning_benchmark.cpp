@@ -59,7 +59,10 @@ void count(const PlanningMap& map, const PlanningProblem& problem, const SpaceLi
            Score& score) {
   if (!proven_free(map.grid, line)) return;
   ++score.solved;
-  score.ratios.push_back(length_of(line) / problem.octile_length);
+  // Where it starts at its goal there is no length to compare.
+  if (problem.octile_length > 0.0) {
+    score.ratios.push_back(length_of(line) / problem.octile_length);
+  }
 }
 
 /// Ours, with a clock that ends it.
