@@ -23,6 +23,10 @@ constexpr int kDepth = 512;
 constexpr std::uint64_t kReaderShare = 8;
 /// A crash costs at most what came since the last flush, and what still waits.
 constexpr Duration kFlushPeriod = 500ms;
+/// Samples that waited so long are written without compression, which is several times faster,
+/// until none waits longer than the second.
+constexpr Duration kLate = 150ms;
+constexpr Duration kInTime = 50ms;
 
 /// What a recording calls a topic; nothing where it is not of this vehicle.
 std::optional<std::string> topic_in_file(const std::string& vehicle, const std::string& wire) {
@@ -89,7 +93,19 @@ void Recorder::open() {
   if (!opened.ok()) throw ConfigError(opened.error().reason);
   writer_.emplace(std::move(opened).value());
   background_.emplace(params_.max_memory,
-                      [this](const RecordedSample& sample) { return writer_->write(sample); });
+                      [this](const RecordedSample& sample) { return write(sample); });
+}
+
+/// In the thread of background_.
+Status Recorder::write(const RecordedSample& sample) {
+  if (!lockstep_) {
+    const Duration waited = now() - mcap::to_time(sample.log_time);
+    const bool was_in_haste = std::exchange(in_haste_, waited > (in_haste_ ? kInTime : kLate));
+    if (in_haste_ != was_in_haste) {
+      writer_->set_compression(in_haste_ ? mcap::Compression::kNone : params_.compression);
+    }
+  }
+  return writer_->write(sample);
 }
 
 Status Recorder::close() {

@@ -84,6 +84,7 @@ class Recorder : public Component {
   void add(RecordedTopic topic);
   std::size_t topic_of_writer(std::size_t topic, const EndpointGuid& writer);
   void keep(std::size_t topic, const SampleOrigin& origin, Cdr cdr);
+  Status write(const RecordedSample& sample);
   void flush();
   void tick();
   void report_drops();
@@ -104,7 +105,8 @@ class Recorder : public Component {
   LossLedger losses_;
   std::optional<SampleWindow> window_;
   bool window_was_cut_ = false;
-  Status save_failure_;  // set by the thread of background_
+  Status save_failure_;    // set by the thread of background_
+  bool in_haste_ = false;  // used by the thread of background_ alone
   bool stopped_ = false;
   std::uint64_t reported_drops_ = 0;  // when their end was logged last
   std::uint64_t seen_drops_ = 0;

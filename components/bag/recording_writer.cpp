@@ -165,6 +165,11 @@ Status RecordingWriter::write_losses() {
   return written;
 }
 
+void RecordingWriter::set_compression(mcap::Compression compression) {
+  params_.compression = compression;
+  writer_->set_compression(compression);
+}
+
 Status RecordingWriter::close() {
   return writer_->close();
 }

@@ -45,6 +45,8 @@ class RecordingWriter {
                 mcap::Timestamp at);
   /// Notes what was lost up to now, where that has changed.
   Status note(const LossLedger& losses, mcap::Timestamp now);
+  /// Of what is written from now on.
+  void set_compression(mcap::Compression compression);
   Status flush() { return writer_->flush(); }
   /// The ledger that was noted last becomes that of the file.
   Status close();

@@ -370,6 +370,10 @@ Status Writer::write(const Metadata& metadata) {
   return {};
 }
 
+void Writer::set_compression(Compression compression) {
+  state_->params.compression = compression;
+}
+
 Status Writer::flush() {
   if (const Status usable = state_->usable(); !usable.ok()) return usable;
   return state_->write_chunk();

@@ -68,6 +68,9 @@ class Writer {
   Status write(const Attachment& attachment);
   Status write(const Metadata& metadata);
 
+  /// Of the chunk that is being filled, and of those that follow it.
+  void set_compression(Compression compression);
+
   /// Hands what is in memory to the operating system, as a chunk of its own. A recorder calls it
   /// once a second, so that topics that fell silent are on disk, too.
   Status flush();

@@ -80,6 +80,28 @@ TEST(McapWriter, CompressesWhatCanBeCompressedAndOnlyThat) {
   }
 }
 
+TEST(McapWriter, CompressionChangesFromTheOpenChunkOn) {
+  const TemporaryFolder folder;
+  auto writer = Writer::open(folder / "f.mcap");
+  ASSERT_TRUE(writer.ok());
+  const auto channel = writer->add_channel("t", "cdr", 0);
+  const Bytes zeros(10'000);
+  for (const Compression compression :
+       {Compression::kZstd, Compression::kNone, Compression::kLz4}) {
+    ASSERT_TRUE(writer->write(Message{*channel, 0, 1, 1, zeros}).ok());
+    writer->set_compression(compression);
+    ASSERT_TRUE(writer->flush().ok());
+  }
+  ASSERT_TRUE(writer->close().ok());
+  const auto reader = Reader::open(folder / "f.mcap");
+  ASSERT_TRUE(reader.ok());
+  ASSERT_EQ(reader->chunks().size(), 3U);
+  EXPECT_EQ(reader->chunks()[0].compression, "zstd");
+  EXPECT_EQ(reader->chunks()[1].compression, "");
+  EXPECT_EQ(reader->chunks()[2].compression, "lz4");
+  EXPECT_EQ(read_samples(*reader).size(), 3U);
+}
+
 TEST(McapWriter, TheSameCallsMakeTheSameBytes) {
   const TemporaryFolder folder;
   const auto samples = random_samples(4, 500, 3000);
