@@ -23,6 +23,8 @@ inline std::uint8_t to_msg(Mode mode) {
       return LAND;
     case Mode::kIndoorNavigation:
       return INDOOR_NAVIGATION;
+    case Mode::kIndoorExploration:
+      return INDOOR_EXPLORATION;
   }
   return GROUNDED;
 }

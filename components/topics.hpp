@@ -54,6 +54,8 @@ inline constexpr Topic<swiftlet_msgs::msg::VehicleStatus> vehicle_status{"vehicl
 inline constexpr Topic<swiftlet_msgs::msg::CommanderState> commander_state{"commander/state",
                                                                            qos::map};
 inline constexpr Topic<geometry_msgs::msg::PoseStamped> goal{"goal", qos::command};
+/// Where to look next, while an exploration is flown.
+inline constexpr Topic<swiftlet_msgs::msg::Exploration> exploration{"exploration", qos::state};
 inline constexpr Topic<nav_msgs::msg::Path> path{"path", qos::state};
 inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", qos::map};
 inline constexpr Topic<swiftlet_msgs::msg::Setpoint> setpoint{"setpoint", qos::command, 10ms};
@@ -87,6 +89,7 @@ inline constexpr const char* names[] = {clock.name,
                                         mode_ack.name,
                                         vehicle_status.name,
                                         goal.name,
+                                        exploration.name,
                                         path.name,
                                         trajectory.name,
                                         setpoint.name,

@@ -37,15 +37,15 @@ bool usable(const ReferenceLimits& limits) {
 }  // namespace
 
 FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {
-  const bool fine =
-      usable(params.takeoff) && usable(params.landing) && usable(params.braking) &&
-      positive({params.landing_depth, params.landing_resistance, params.ground_range,
-                params.ground_height, params.plan_gap, params.arrival_distance,
-                params.arrival_speed, params.arrival_timeout, params.plan_timeout,
-                params.estimate_timeout, params.estimate_sigma_max, params.heading_sigma_to_arm}) &&
-      params.settling_to_arm >= 0.0 && params.settling_to_arm <= 3600.0 &&
-      params.landing_resistance <= params.landing_depth && params.min_battery_percentage >= 0.0 &&
-      params.min_battery_percentage <= 1.0;
+  const bool fine = usable(params.takeoff) && usable(params.landing) && usable(params.braking) &&
+                    positive({params.landing_depth, params.landing_resistance, params.ground_range,
+                              params.ground_height, params.plan_gap, params.arrival_distance,
+                              params.arrival_speed, params.arrival_timeout, params.plan_timeout,
+                              params.exploration_timeout, params.estimate_timeout,
+                              params.estimate_sigma_max, params.heading_sigma_to_arm}) &&
+                    params.settling_to_arm >= 0.0 && params.settling_to_arm <= 3600.0 &&
+                    params.landing_resistance <= params.landing_depth &&
+                    params.min_battery_percentage >= 0.0 && params.min_battery_percentage <= 1.0;
   if (!fine) {
     throw std::invalid_argument(
         "flight director: speeds and accelerations must be from 0.001 to 10000, distances, "
@@ -154,6 +154,7 @@ bool FlightDirector::landed(Time now) const {
 }
 
 Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
+  if (request.kind == Request::Kind::kExplore) return explore(now);
   const Mode before = machine_.mode();
   Result<Acceptance> result = machine_.request(request, situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
@@ -165,6 +166,7 @@ Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
 
 FlightDirector::Directive FlightDirector::tick(Time now) {
   if (machine_.mode() == Mode::kIndoorNavigation) follow_mission(now);
+  if (machine_.mode() == Mode::kIndoorExploration) follow_exploration(now);
 
   Situation seen = situation(now);
   if (machine_.mode() == Mode::kLand) seen.on_ground = landed(now);
@@ -185,7 +187,7 @@ FlightDirector::Directive FlightDirector::tick(Time now) {
     directive.setpoint.kind = SetpointKind::kTrack;
   }
   directive.setpoint.reference = reference(now);
-  if (machine_.mode() == Mode::kIndoorNavigation) directive.goal = flying_.goal;
+  if (is_guided()) directive.goal = flying_.goal;
   return directive;
 }
 
@@ -232,6 +234,7 @@ void FlightDirector::enter(Mode mode, Time now) {
       stop(flown, now);
       break;
     case Mode::kIndoorNavigation:
+    case Mode::kIndoorExploration:
       stop(flown, now);
       flying_.navigation = Navigation::kActive;
       break;
@@ -272,6 +275,7 @@ FlightDirector::Status FlightDirector::status(Time now) const {
   status.waypoint = flying_.waypoints.empty() ? 0 : flying_.waypoint + 1;
   status.waypoint_count = flying_.waypoints.size();
   status.mission_done = flying_.mission_done;
+  status.home = flying_.takeoff_point;
   return status;
 }
 

@@ -36,6 +36,14 @@ struct PlanGoal {
   MissionWaypoint waypoint;  ///< with the yaw to arrive with
 };
 
+/// What the explorer says.
+struct ExplorationOrder {
+  enum class Kind { kLook, kFinished, kStuck };
+  Kind kind = Kind::kStuck;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of kLook: fly there [m]
+  std::string reason;                               ///< of kStuck
+};
+
 /// Turns requests, missions and plans into one setpoint a tick: the mode machine decides what is
 /// flown, this class how. Pure: time and everything else is passed in.
 ///
@@ -69,6 +77,9 @@ class FlightDirector {
     /// An estimate older than this is lost. A standby estimator takes over before, and the flight
     /// controller bridges the gap with its IMU [s].
     double estimate_timeout = 0.25;
+    /// An exploration whose explorer is silent, stuck or insists on a place that was flown to, or
+    /// to which there is no plan, ends after [s].
+    double exploration_timeout = 5.0;
     double estimate_sigma_max = 0.30;    ///< of the position, any axis [m]
     double heading_sigma_to_arm = 0.02;  ///< better known before take-off [rad]
     /// Unbroken estimate before take-off: what is learnt of the sensors in that time is what
@@ -86,11 +97,12 @@ class FlightDirector {
     std::size_t waypoint = 0;  ///< flown to, from 1; 0 without a mission
     std::size_t waypoint_count = 0;
     bool mission_done = false;
+    Eigen::Vector3d home = Eigen::Vector3d::Zero();  ///< the take-off point [m]
   };
 
   struct Directive {
     FlightSetpoint setpoint;
-    std::optional<PlanGoal> goal;          ///< while Indoor Navigation flies
+    std::optional<PlanGoal> goal;          ///< while it is guided by plans
     std::optional<Transition> transition;  ///< what happened in this tick
   };
 
@@ -100,7 +112,7 @@ class FlightDirector {
     ModeMachine::State machine;
     Eigen::Vector3d takeoff_point = Eigen::Vector3d::Zero();
     Trajectory simple;                 ///< flown where there is no plan
-    std::optional<Trajectory> active;  ///< plan that is flown in Indoor Navigation
+    std::optional<Trajectory> active;  ///< plan that is flown
     std::deque<Trajectory> coming;     ///< plans that begin later
     bool blind = false;                ///< in Land: level, without a reference
     std::vector<MissionWaypoint> waypoints;
@@ -109,6 +121,7 @@ class FlightDirector {
     std::optional<Time> waiting_since;  ///< for the planner's answer
     std::string refusal;                ///< of the last plan, where it was refused
     bool mission_done = false;
+    double cruise_altitude = 0.0;  ///< of an exploration, in the map [m]
     Situation::Navigation navigation = Situation::Navigation::kInactive;
     std::string navigation_problem;
     std::string last_reason;
@@ -132,6 +145,8 @@ class FlightDirector {
   /// Checks the mission and begins to fly it. `id` is the same for the same waypoints.
   Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
   void set_plan(const PlanAnswer& answer);
+  /// Where to fly in Indoor Exploration; heard at `now`.
+  void set_exploration(const ExplorationOrder& order, Time now);
   /// Puts into the status why something was refused, for who gets no answer.
   void note_refusal(const std::string& reason) { flying_.last_reason = reason; }
 
@@ -163,8 +178,13 @@ class FlightDirector {
   void stop(const FlatReference& from, Time now);
   void sink(Time now);
 
+  bool is_guided() const;
   void follow_mission(Time now);
-  void set_goal(Time now);
+  Result<Acceptance> explore(Time now);
+  void follow_exploration(Time now);
+  bool follow_plans(Time now);
+  void set_goal(const MissionWaypoint& waypoint, Time now);
+  std::string goal_name() const;
   void take_answer(const PlanAnswer& answer, Time now);
   std::string plan_problem(const Trajectory& plan, Time now) const;
   void fail_navigation(const std::string& problem);
@@ -184,7 +204,10 @@ class FlightDirector {
   std::string guidance_problem_;
 
   State flying_;
-  std::deque<PlanAnswer> answers_;  // to its goal, since the last tick
+  std::deque<PlanAnswer> answers_;         // to its goal, since the last tick
+  std::optional<ExplorationOrder> order_;  // since exploration began
+  Time order_heard_{};
+  std::optional<Time> idle_since_;  // in exploration, with nothing to fly
 };
 
 }  // namespace swiftlet

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The part of FlightDirector that flies missions: waypoints to goals, and answers to trajectories.
+// Exploration uses the latter, too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,12 +63,25 @@ void FlightDirector::set_plan(const PlanAnswer& answer) {
   if (flying_.goal && answer.goal == flying_.goal->identity) answers_.push_back(answer);
 }
 
-void FlightDirector::set_goal(Time now) {
-  flying_.goal = PlanGoal{now, flying_.waypoints[flying_.waypoint]};
+bool FlightDirector::is_guided() const {
+  return machine_.mode() == Mode::kIndoorNavigation || machine_.mode() == Mode::kIndoorExploration;
+}
+
+/// What is flown goes on until there is a plan to the new goal.
+void FlightDirector::set_goal(const MissionWaypoint& waypoint, Time now) {
+  flying_.goal = PlanGoal{now, waypoint};
   if (!flying_.goal->waypoint.yaw) flying_.goal->waypoint.yaw = reference(now).yaw;
   answers_.clear();
-  flying_.waiting_since = now;
+  flying_.waiting_since = flying_.active ? std::max(now, flying_.active->end()) : now;
   flying_.refusal.clear();
+}
+
+std::string FlightDirector::goal_name() const {
+  if (machine_.mode() == Mode::kIndoorNavigation) {
+    return fmt::format("waypoint {}", flying_.waypoint + 1);
+  }
+  const Eigen::Vector3d& place = flying_.goal->waypoint.position;
+  return fmt::format("({:.2f}, {:.2f})", place.x(), place.y());
 }
 
 void FlightDirector::fail_navigation(const std::string& problem) {
@@ -103,9 +117,9 @@ std::string FlightDirector::plan_problem(const Trajectory& plan, Time now) const
 
 void FlightDirector::take_answer(const PlanAnswer& answer, Time now) {
   if (!answer.brake && answer.trajectory.empty()) {
-    fail_navigation(fmt::format(
-        "{} to waypoint {}{}", answer.failure.empty() ? "no usable plan" : answer.failure,
-        flying_.waypoint + 1, answer.reason.empty() ? "" : ": " + answer.reason));
+    fail_navigation(fmt::format("{} to {}{}",
+                                answer.failure.empty() ? "no usable plan" : answer.failure,
+                                goal_name(), answer.reason.empty() ? "" : ": " + answer.reason));
     return;
   }
   if (!answer.brake) flying_.refusal = plan_problem(answer.trajectory, now);
@@ -124,10 +138,9 @@ void FlightDirector::take_answer(const PlanAnswer& answer, Time now) {
   flying_.coming.push_back(answer.trajectory);
 }
 
-void FlightDirector::follow_mission(Time now) {
-  if (flying_.navigation != Navigation::kActive) return;
-  if (!guidance_problem_.empty()) return fail_navigation(guidance_problem_);
-  if (!flying_.goal && now >= flying_.simple.end()) set_goal(now);
+/// Takes what the planner answered, and the next plan at its time. True once what was planned is
+/// flown to its end.
+bool FlightDirector::follow_plans(Time now) {
   for (; !answers_.empty() && flying_.navigation == Navigation::kActive; answers_.pop_front()) {
     take_answer(answers_.front(), now);
   }
@@ -136,16 +149,25 @@ void FlightDirector::follow_mission(Time now) {
     flying_.coming.pop_front();
     flying_.waiting_since.reset();
   }
-  if (!flying_.goal || !flying_.coming.empty() || flying_.navigation != Navigation::kActive) return;
-  if (flying_.waiting_since) {
-    if (to_seconds(now - *flying_.waiting_since) > params_.plan_timeout) {
-      fail_navigation(fmt::format(
-          "no plan to waypoint {} within {:.1f} s; {}", flying_.waypoint + 1, params_.plan_timeout,
-          flying_.refusal.empty() ? "is the planner running?" : flying_.refusal));
-    }
-    return;
+  if (!flying_.goal || !flying_.coming.empty() || flying_.navigation != Navigation::kActive) {
+    return false;
   }
-  if (!flying_.active || now < flying_.active->end()) return;
+  if (!flying_.waiting_since) return flying_.active && now >= flying_.active->end();
+  if (to_seconds(now - *flying_.waiting_since) > params_.plan_timeout) {
+    fail_navigation(
+        fmt::format("no plan to {} within {:.1f} s; {}", goal_name(), params_.plan_timeout,
+                    flying_.refusal.empty() ? "is the planner running?" : flying_.refusal));
+  }
+  return false;
+}
+
+void FlightDirector::follow_mission(Time now) {
+  if (flying_.navigation != Navigation::kActive) return;
+  if (!guidance_problem_.empty()) return fail_navigation(guidance_problem_);
+  if (!flying_.goal && now >= flying_.simple.end()) {
+    set_goal(flying_.waypoints[flying_.waypoint], now);
+  }
+  if (!follow_plans(now)) return;
   const Eigen::Vector3d to_go = flying_.waypoints[flying_.waypoint].position - state_.p_WB;
   const bool arrived =
       to_go.norm() < params_.arrival_distance && state_.v_WB_W.norm() < params_.arrival_speed;
@@ -154,7 +176,7 @@ void FlightDirector::follow_mission(Time now) {
     flying_.mission_done = true;
   } else if (arrived) {
     ++flying_.waypoint;
-    set_goal(now);
+    set_goal(flying_.waypoints[flying_.waypoint], now);
   } else if (to_seconds(now - flying_.active->end()) > params_.arrival_timeout) {
     fail_navigation(
         fmt::format("waypoint {} was missed by {:.2f} m", flying_.waypoint + 1, to_go.norm()));

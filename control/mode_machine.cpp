@@ -23,6 +23,7 @@ constexpr Mode kTakeoff = Mode::kTakeoff;
 constexpr Mode kHover = Mode::kHover;
 constexpr Mode kLand = Mode::kLand;
 constexpr Mode kNavigation = Mode::kIndoorNavigation;
+constexpr Mode kExploration = Mode::kIndoorExploration;
 
 // A take-off to an altitude this close to the last one is the same take-off [m].
 constexpr double kSameAltitude = 1e-3;
@@ -37,6 +38,8 @@ constexpr std::array kRules{
     RequestRule{kGrounded, false, Kind::kLand, kAlready, kGrounded, "on the ground"},
     RequestRule{kGrounded, false, Kind::kNavigate, kRefuse, kGrounded,
                 "on the ground; send arm, then takeoff"},
+    RequestRule{kGrounded, false, Kind::kExplore, kRefuse, kGrounded,
+                "on the ground; send arm, then takeoff"},
 
     RequestRule{kGrounded, true, Kind::kArm, kAlready, kGrounded, "armed"},
     RequestRule{kGrounded, true, Kind::kDisarm, kGo, kGrounded, ""},
@@ -46,6 +49,8 @@ constexpr std::array kRules{
     RequestRule{kGrounded, true, Kind::kLand, kAlready, kGrounded, "on the ground"},
     RequestRule{kGrounded, true, Kind::kNavigate, kRefuse, kGrounded,
                 "on the ground; send takeoff first"},
+    RequestRule{kGrounded, true, Kind::kExplore, kRefuse, kGrounded,
+                "on the ground; send takeoff first"},
 
     RequestRule{kTakeoff, true, Kind::kArm, kAlready, kTakeoff, "armed"},
     RequestRule{kTakeoff, true, Kind::kDisarm, kRefuse, kTakeoff, "in the air; send land first"},
@@ -54,6 +59,8 @@ constexpr std::array kRules{
     RequestRule{kTakeoff, true, Kind::kLand, kGo, kLand, ""},
     RequestRule{kTakeoff, true, Kind::kNavigate, kRefuse, kTakeoff,
                 "take-off is not finished; wait for Hover"},
+    RequestRule{kTakeoff, true, Kind::kExplore, kRefuse, kTakeoff,
+                "take-off is not finished; wait for Hover"},
 
     RequestRule{kHover, true, Kind::kArm, kAlready, kHover, "armed"},
     RequestRule{kHover, true, Kind::kDisarm, kRefuse, kHover, "in the air; send land first"},
@@ -61,6 +68,7 @@ constexpr std::array kRules{
     RequestRule{kHover, true, Kind::kHover, kAlready, kHover, "hovering"},
     RequestRule{kHover, true, Kind::kLand, kGo, kLand, ""},
     RequestRule{kHover, true, Kind::kNavigate, kGo, kNavigation, ""},
+    RequestRule{kHover, true, Kind::kExplore, kGo, kExploration, ""},
 
     RequestRule{kLand, true, Kind::kArm, kAlready, kLand, "armed"},
     RequestRule{kLand, true, Kind::kDisarm, kRefuse, kLand, "landing; it disarms by itself"},
@@ -69,6 +77,8 @@ constexpr std::array kRules{
     RequestRule{kLand, true, Kind::kHover, kGo, kHover, ""},
     RequestRule{kLand, true, Kind::kLand, kAlready, kLand, "landing"},
     RequestRule{kLand, true, Kind::kNavigate, kRefuse, kLand,
+                "landing; send hover to stay in the air"},
+    RequestRule{kLand, true, Kind::kExplore, kRefuse, kLand,
                 "landing; send hover to stay in the air"},
 
     RequestRule{kNavigation, true, Kind::kArm, kAlready, kNavigation, "armed"},
@@ -79,17 +89,30 @@ constexpr std::array kRules{
     RequestRule{kNavigation, true, Kind::kLand, kGo, kLand, ""},
     // The same mission again changes nothing; another one replaces it.
     RequestRule{kNavigation, true, Kind::kNavigate, kGo, kNavigation, ""},
+    RequestRule{kNavigation, true, Kind::kExplore, kGo, kExploration, ""},
+
+    RequestRule{kExploration, true, Kind::kArm, kAlready, kExploration, "armed"},
+    RequestRule{kExploration, true, Kind::kDisarm, kRefuse, kExploration,
+                "in the air; send land first"},
+    RequestRule{kExploration, true, Kind::kTakeoff, kAlready, kExploration, "in the air"},
+    RequestRule{kExploration, true, Kind::kHover, kGo, kHover, ""},
+    RequestRule{kExploration, true, Kind::kLand, kGo, kLand, ""},
+    RequestRule{kExploration, true, Kind::kNavigate, kGo, kNavigation, ""},
+    RequestRule{kExploration, true, Kind::kExplore, kAlready, kExploration, "exploring"},
 };
 
-constexpr std::array<EventRule, 8> kEvents{{
+constexpr std::array<EventRule, 11> kEvents{{
     {Event::kLanded, kLand, kGrounded},
     {Event::kEstimateLost, kTakeoff, kLand},
     {Event::kEstimateLost, kHover, kLand},
     {Event::kEstimateLost, kNavigation, kLand},
+    {Event::kEstimateLost, kExploration, kLand},
     {Event::kTakeoffFailed, kTakeoff, kLand},
     {Event::kReferenceFinished, kTakeoff, kHover},
     {Event::kNavigationFailed, kNavigation, kHover},
+    {Event::kNavigationFailed, kExploration, kHover},
     {Event::kNavigationFinished, kNavigation, kHover},
+    {Event::kNavigationFinished, kExploration, kHover},
 }};
 
 std::string because(const char* what, const std::string& detail) {
@@ -110,6 +133,8 @@ const char* to_string(Mode mode) {
       return "Land";
     case Mode::kIndoorNavigation:
       return "Indoor Navigation";
+    case Mode::kIndoorExploration:
+      return "Indoor Exploration";
   }
   return "unknown";
 }
@@ -128,6 +153,8 @@ const char* to_string(Kind kind) {
       return "land";
     case Kind::kNavigate:
       return "navigate";
+    case Kind::kExplore:
+      return "explore";
   }
   return "unknown";
 }
@@ -166,7 +193,7 @@ const RequestRule& ModeMachine::rule(Mode mode, bool armed, Kind request) {
   return kUnknown;
 }
 
-const std::array<EventRule, 8>& ModeMachine::event_rules() {
+const std::array<EventRule, 11>& ModeMachine::event_rules() {
   return kEvents;
 }
 
@@ -200,7 +227,8 @@ std::optional<Error> ModeMachine::objection(const Request& request,
   if (request.kind == Kind::kHover && mode_ == kLand && situation.on_ground) {
     return object("on the ground already");
   }
-  if (request.kind == Kind::kNavigate && !request.mission_problem.empty()) {
+  const bool is_guided = request.kind == Kind::kNavigate || request.kind == Kind::kExplore;
+  if (is_guided && !request.mission_problem.empty()) {
     return object(request.mission_problem);
   }
   if (needs_estimate && !situation.estimate_ok) {

@@ -13,19 +13,20 @@
 
 namespace swiftlet {
 
-enum class Mode { kGrounded, kTakeoff, kHover, kLand, kIndoorNavigation };
-inline constexpr std::array kModes{Mode::kGrounded, Mode::kTakeoff, Mode::kHover, Mode::kLand,
-                                   Mode::kIndoorNavigation};
+enum class Mode { kGrounded, kTakeoff, kHover, kLand, kIndoorNavigation, kIndoorExploration };
+inline constexpr std::array kModes{
+    Mode::kGrounded, Mode::kTakeoff,          Mode::kHover,
+    Mode::kLand,     Mode::kIndoorNavigation, Mode::kIndoorExploration};
 /// As a pilot reads it: "Indoor Navigation".
 const char* to_string(Mode mode);
 
 /// What a pilot or the commander asks for.
 struct Request {
-  enum class Kind { kArm, kDisarm, kTakeoff, kHover, kLand, kNavigate };
+  enum class Kind { kArm, kDisarm, kTakeoff, kHover, kLand, kNavigate, kExplore };
   Kind kind = Kind::kHover;
   double altitude = 0.0;        ///< takeoff: above the take-off point [m]
   std::uint64_t mission = 0;    ///< navigate: identity of the mission, its checksum
-  std::string mission_problem;  ///< navigate: why the mission cannot be flown; empty if it can
+  std::string mission_problem;  ///< navigate, explore: why it cannot be flown; empty if it can
 
   static Request arm() { return {Kind::kArm, 0.0, 0, {}}; }
   static Request disarm() { return {Kind::kDisarm, 0.0, 0, {}}; }
@@ -35,10 +36,13 @@ struct Request {
   static Request navigate(std::uint64_t mission, std::string problem = {}) {
     return {Kind::kNavigate, 0.0, mission, std::move(problem)};
   }
+  static Request explore(std::string problem = {}) {
+    return {Kind::kExplore, 0.0, 0, std::move(problem)};
+  }
 };
-inline constexpr std::array kRequestKinds{Request::Kind::kArm,     Request::Kind::kDisarm,
-                                          Request::Kind::kTakeoff, Request::Kind::kHover,
-                                          Request::Kind::kLand,    Request::Kind::kNavigate};
+inline constexpr std::array kRequestKinds{
+    Request::Kind::kArm,  Request::Kind::kDisarm,   Request::Kind::kTakeoff, Request::Kind::kHover,
+    Request::Kind::kLand, Request::Kind::kNavigate, Request::Kind::kExplore};
 const char* to_string(Request::Kind kind);
 
 /// What the machine must know at each tick.
@@ -146,7 +150,7 @@ class ModeMachine {
 
   /// The tables, for documentation and tests.
   static const RequestRule& rule(Mode mode, bool armed, Request::Kind request);
-  static const std::array<EventRule, 8>& event_rules();
+  static const std::array<EventRule, 11>& event_rules();
 
  private:
   std::optional<Error> objection(const Request& request, const Situation& situation) const;

@@ -78,6 +78,9 @@ void add_gcs_commands(CLI::App& gcs) {
   add_simple(gcs, network, "land", "Descend here until the ground is felt", command::LAND);
   add_simple(gcs, network, "hover", "Stop, and hold this place", command::HOVER);
 
+  add_simple(gcs, network, "explore", "Look at all that can be reached, and come back",
+             command::EXPLORE);
+
   auto altitude = std::make_shared<double>(kDefaultAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
   takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")

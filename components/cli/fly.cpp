@@ -20,8 +20,12 @@
 namespace swiftlet {
 namespace {
 
-const std::vector<std::string> kHosted{"sim",          "estimator", "flight_controller",
-                                       "lidar_mapper", "planner",   "commander"};
+std::vector<std::string> hosted(const Scenario& scenario) {
+  std::vector<std::string> names{"sim",          "estimator", "flight_controller",
+                                 "lidar_mapper", "planner",   "commander"};
+  if (scenario.mission.explore) names.emplace_back("explorer");
+  return names;
+}
 
 struct FlyOptions {
   std::string scenario;
@@ -61,12 +65,13 @@ int fly(const FlyOptions& options) {
   }
   host_options.fault_seed = scenario.seed;
   Host host(host_options);
-  for (const std::string& name : kHosted) host.add(name, parameters.child(name));
+  const std::vector<std::string> names = hosted(scenario);
+  for (const std::string& name : names) host.add(name, parameters.child(name));
   auto& pilot = host.emplace<Pilot>("pilot", scenario);
   auto& referee = host.emplace<Referee>("referee");
   auto& map = host.emplace<MapKeeper>("map_keeper");
   host.emplace<Progress>("progress");
-  ParameterOptions::finish(parameters, kHosted);
+  ParameterOptions::finish(parameters, names);
   // Nothing is written before everything is known to be usable.
   if (!options.report.empty() && std::filesystem::exists(options.report) &&
       !std::filesystem::is_directory(options.report)) {
@@ -77,7 +82,7 @@ int fly(const FlyOptions& options) {
     RecorderParams params;
     params.file = options.record;
     params.overwrite = true;
-    params.run = {{kRunComponentsKey, fmt::format("{}", fmt::join(kHosted, " "))},
+    params.run = {{kRunComponentsKey, fmt::format("{}", fmt::join(names, " "))},
                   {kRunParametersKey, parameters.dump()}};
     recorder = &host.emplace<Recorder>("recorder", params);
   }

@@ -38,11 +38,22 @@ FlightDirector::Params read_params(const Config& config) {
   config.read("braking_acceleration", params.braking.acceleration, kPositive);
   config.read("arrival_distance", params.arrival_distance, kPositive);
   config.read("plan_timeout", params.plan_timeout, kPositive);
+  config.read("exploration_timeout", params.exploration_timeout, kPositive);
   config.read("estimate_sigma_max", params.estimate_sigma_max, kPositive);
   config.read("heading_sigma_to_arm", params.heading_sigma_to_arm, kPositive);
   config.read("settling_to_arm", params.settling_to_arm, {0.0, 3600.0});
   config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
   return params;
+}
+
+ExplorationOrder order_of(const swiftlet_msgs::msg::Exploration& message) {
+  using namespace swiftlet_msgs::msg::Exploration_Constants;
+  ExplorationOrder order;
+  order.place = {message.viewpoint().x(), message.viewpoint().y()};
+  order.reason = message.reason();
+  if (message.status() == LOOK) order.kind = ExplorationOrder::Kind::kLook;
+  if (message.status() == FINISHED) order.kind = ExplorationOrder::Kind::kFinished;
+  return order;
 }
 
 std::uint8_t to_msg(SetpointKind kind) {
@@ -86,6 +97,12 @@ class Commander : public Component {
                     trajectory.failure(), trajectory.reason()};
       if (active()) director_.set_plan(last_plan_);
     });
+    subscribe(
+        topic::exploration,
+        [this](const swiftlet_msgs::msg::Exploration& exploration) {
+          director_.set_exploration(order_of(exploration), now());
+        },
+        Need::kOptional);
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
       answer(command.id(), [&] { return carry_out(command); });
     });
@@ -252,6 +269,7 @@ class Commander : public Component {
     message.waypoint(static_cast<std::uint32_t>(status.waypoint));
     message.waypoint_count(static_cast<std::uint32_t>(status.waypoint_count));
     message.mission_done(status.mission_done);
+    message.takeoff_point(to_point(status.home));
     status_.publish(message);
   }
 

@@ -32,6 +32,8 @@ std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command
       return Request::hover();
     case LAND:
       return Request::land();
+    case EXPLORE:
+      return Request::explore();
     default:
       return std::nullopt;
   }

@@ -66,6 +66,7 @@ swiftlet_msgs::msg::CommanderState to_msg(const FlightDirector::State& state) {
   message.waiting_since(to_msg(state.waiting_since.value_or(Time{})));
   message.refusal(state.refusal);
   message.mission_done(state.mission_done);
+  message.cruise_altitude(state.cruise_altitude);
   message.navigation(to_msg(state.navigation));
   message.navigation_problem(state.navigation_problem);
   message.reason(state.last_reason);
@@ -97,6 +98,7 @@ FlightDirector::State from_msg(const swiftlet_msgs::msg::CommanderState& message
   if (message.waiting()) state.waiting_since = from_msg(message.waiting_since());
   state.refusal = message.refusal();
   state.mission_done = message.mission_done();
+  state.cruise_altitude = message.cruise_altitude();
   state.navigation = navigation_of(message.navigation());
   state.navigation_problem = message.navigation_problem();
   state.last_reason = message.reason();

@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 constexpr Duration kGoalPeriod = 100ms;  // of the commander
 constexpr Duration kTick = 50ms;
 constexpr Duration kAlivePeriod = 100ms;  // no plan takes longer
+/// A setpoint is so far from a trajectory that is flown at most: it is a little older [m].
+constexpr double kFlownGap = 0.1;
 
 namespace answers = swiftlet_msgs::msg::Trajectory_Constants;
 
@@ -98,9 +100,22 @@ class Planner : public Component {
     finished_ = false;
     braking_ = false;
     replanner_.reset();
-    // Goals are set when the vehicle rests at its reference.
-    current_ = resting_at(reference_, now());
+    // What is flown to another goal goes on until there is a plan to this one.
+    if (reference_at_rest()) {
+      current_ = resting_at(reference_, now());
+    } else if (!is_flown(current_)) {
+      current_ = {};
+      braking_ = true;
+    }
     plan();
+  }
+
+  bool reference_at_rest() const {
+    return reference_.velocity.isZero(0.0) && reference_.acceleration.isZero(0.0);
+  }
+  bool is_flown(const Trajectory& trajectory) const {
+    return !trajectory.empty() &&
+           (trajectory.evaluate(now()).position - reference_.position).norm() < kFlownGap;
   }
 
   /// What the active planner answered.
@@ -120,8 +135,7 @@ class Planner : public Component {
     }
     if (!goal_identity_ || finished_) return;
     if (braking_) {
-      const bool at_rest = reference_.velocity.isZero(0.0) && reference_.acceleration.isZero(0.0);
-      if (!at_rest) return;
+      if (!reference_at_rest()) return;
       braking_ = false;
       current_ = resting_at(reference_, now());
     }

@@ -114,13 +114,15 @@ void Pilot::advance(Time now) {
       break;
     case Step::kTakeoff:
       if (status_.mode() == mode::HOVER) {
-        begin(scenario_.mission.waypoints.empty() ? Step::kLand : Step::kMission);
+        const bool flies = scenario_.mission.explore || !scenario_.mission.waypoints.empty();
+        begin(flies ? Step::kMission : Step::kLand);
       } else if (status_.mode() != mode::TAKEOFF) {
         finish(false, status_.reason());
       }
       break;
     case Step::kMission:
       if (status_.mode() == mode::INDOOR_NAVIGATION) break;
+      if (status_.mode() == mode::INDOOR_EXPLORATION) break;
       if (!status_.mission_done()) {
         finish(false, status_.reason());
       } else if (scenario_.mission.land) {
@@ -151,7 +153,7 @@ void Pilot::begin(Step step) {
 
 void Pilot::send(Time now) {
   sent_ = now;
-  if (step_ == Step::kMission) {
+  if (step_ == Step::kMission && !scenario_.mission.explore) {
     waypoints_.publish(make_mission(now, command_id(), waypoints_of(scenario_)));
     return;
   }
@@ -160,6 +162,7 @@ void Pilot::send(Time now) {
   message.id(command_id());
   message.command(step_ == Step::kArm       ? command::ARM
                   : step_ == Step::kTakeoff ? command::TAKEOFF
+                  : step_ == Step::kMission ? command::EXPLORE
                                             : command::LAND);
   message.altitude(scenario_.mission.takeoff_altitude);
   mode_.publish(message);

@@ -19,9 +19,9 @@ struct FlightOutcome {
 };
 
 /// Flies the mission of a scenario with the commands that a person would give at the ground
-/// station: arm, take off, the waypoints, land. Then it ends the run, with exit code 0 when all of
-/// it was done and 1 when not; the latter some seconds after the failure, to show what became of
-/// the vehicle.
+/// station: arm, take off, the waypoints or the exploration, land. Then it ends the run, with exit
+/// code 0 when all of it was done and 1 when not; the latter some seconds after the failure, to
+/// show what became of the vehicle.
 class Pilot : public Component {
  public:
   explicit Pilot(const ComponentContext& context);

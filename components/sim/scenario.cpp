@@ -44,6 +44,10 @@ void read_mission(const Config& config, Scenario::Mission& mission) {
     read_optional(item, "yaw", waypoint.yaw);
     mission.waypoints.push_back(waypoint);
   }
+  config.read("explore", mission.explore);
+  if (mission.explore && !mission.waypoints.empty()) {
+    config.fail("explore", "an exploration has no waypoints; leave one of the two out");
+  }
   config.read("return_to_pad", mission.return_to_pad);
   config.read("land", mission.land);
 }

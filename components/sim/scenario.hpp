@@ -47,6 +47,7 @@ struct Scenario {
   struct Mission {
     double takeoff_altitude = 1.2;  ///< above the world's origin [m]
     std::vector<Waypoint> waypoints;
+    bool explore = false;  ///< instead of waypoints
     bool return_to_pad = true;
     bool land = true;
   };

@@ -67,6 +67,9 @@ ModeMachine in(Mode mode, bool armed = true) {
   if (mode == Mode::kIndoorNavigation) {
     EXPECT_TRUE(machine.request(Request::navigate(kMission), flying()).ok());
   }
+  if (mode == Mode::kIndoorExploration) {
+    EXPECT_TRUE(machine.request(Request::explore(), flying()).ok());
+  }
   EXPECT_EQ(machine.mode(), mode);
   return machine;
 }
@@ -74,18 +77,19 @@ ModeMachine in(Mode mode, bool armed = true) {
 struct Row {
   Mode mode;
   bool armed;
-  // The mode afterwards, in the order arm, disarm, takeoff, hover, land, navigate;
+  // The mode afterwards, in the order arm, disarm, takeoff, hover, land, navigate, explore;
   // "=" accepted and nothing changes, "-" refused.
   std::vector<std::string> answers;
 };
 
 const std::vector<Row> kExpected{
-    {Mode::kGrounded, false, {"Grounded", "=", "-", "-", "=", "-"}},
-    {Mode::kGrounded, true, {"=", "Grounded", "Takeoff", "-", "=", "-"}},
-    {Mode::kTakeoff, true, {"=", "-", "=", "Hover", "Land", "-"}},
-    {Mode::kHover, true, {"=", "-", "=", "=", "Land", "Indoor Navigation"}},
-    {Mode::kLand, true, {"=", "-", "-", "Hover", "=", "-"}},
-    {Mode::kIndoorNavigation, true, {"=", "-", "=", "Hover", "Land", "="}},
+    {Mode::kGrounded, false, {"Grounded", "=", "-", "-", "=", "-", "-"}},
+    {Mode::kGrounded, true, {"=", "Grounded", "Takeoff", "-", "=", "-", "-"}},
+    {Mode::kTakeoff, true, {"=", "-", "=", "Hover", "Land", "-", "-"}},
+    {Mode::kHover, true, {"=", "-", "=", "=", "Land", "Indoor Navigation", "Indoor Exploration"}},
+    {Mode::kLand, true, {"=", "-", "-", "Hover", "=", "-", "-"}},
+    {Mode::kIndoorNavigation, true, {"=", "-", "=", "Hover", "Land", "=", "Indoor Exploration"}},
+    {Mode::kIndoorExploration, true, {"=", "-", "=", "Hover", "Land", "Indoor Navigation", "="}},
 };
 
 TEST(ModeMachineRequests, EveryPairOfModeAndRequestAnswersAsTheTable) {
@@ -137,7 +141,8 @@ TEST(ModeMachineRequests, AskedTwiceTheyChangeNothingTheSecondTime) {
 }
 
 TEST(ModeMachineRequests, ATakeoffToAnotherAltitudeIsAnotherRequest) {
-  for (const Mode mode : {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation}) {
+  for (const Mode mode :
+       {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation, Mode::kIndoorExploration}) {
     ModeMachine machine = in(mode);
     const auto result = machine.request(Request::takeoff(2.0), flying());
     ASSERT_FALSE(result.ok());
@@ -226,7 +231,8 @@ TEST(ModeMachineEvents, AHopDoesNotCountAsLanded) {
 }
 
 TEST(ModeMachineEvents, ALostEstimateLandsFromEveryModeInTheAir) {
-  for (const Mode mode : {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation}) {
+  for (const Mode mode :
+       {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation, Mode::kIndoorExploration}) {
     ModeMachine machine = in(mode);
     Situation s = flying();
     s.estimate_ok = false;

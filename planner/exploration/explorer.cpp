@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/exploration/explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/exploration/cell_ways.hpp"
+#include "planner/exploration/visiting_order.hpp"
+
+namespace swiftlet {
+namespace {
+
+/// Viewpoints are looked for in every so many cells along both axes.
+constexpr int kLattice = 4;
+/// Of a frontier, so many cells are looked at from each of them.
+constexpr std::size_t kTargets = 8;
+/// Unknown space around a map [m].
+constexpr double kBorder = 1.0;
+/// In more places no order is sought: those that are farthest away come later [places].
+constexpr std::size_t kMostPlaces = 40;
+
+std::vector<Cell> thin_out(const std::vector<Cell>& cells, std::size_t most) {
+  if (cells.size() <= most) return cells;
+  std::vector<Cell> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(cells[i * cells.size() / most]);
+  return some;
+}
+
+DistanceField::Params field_params(double clearance, bool unknown_is_obstacle) {
+  DistanceField::Params params;
+  params.unknown_is_obstacle = unknown_is_obstacle;
+  params.max_distance = clearance + 0.2;
+  return params;
+}
+
+}  // namespace
+
+struct Explorer::Sight {
+  Frontier frontier;
+  Cell from;             // where it is looked into from
+  double way = 0.0;      // to there [m]
+  std::size_t last = 0;  // cells of it that the last step was for
+};
+
+Explorer::Explorer(const Params& params)
+    : params_(params),
+      field_(field_params(params.clearance, true)),
+      hope_(field_params(params.clearance, false)) {}
+
+Explorer::Place Explorer::place_of(const OccupancyGrid& grid, Cell cell) {
+  const Eigen::Vector2d middle = grid.center_of(cell) / grid.resolution();
+  return {static_cast<int>(std::floor(middle.x())), static_cast<int>(std::floor(middle.y()))};
+}
+
+bool Explorer::is_given_up(const OccupancyGrid& grid, const Frontier& frontier) const {
+  const auto count = std::count_if(frontier.cells.begin(), frontier.cells.end(), [&](Cell cell) {
+    const auto looks = looks_.find(place_of(grid, cell));
+    return looks != looks_.end() && looks->second >= params_.patience;
+  });
+  return 2 * static_cast<std::size_t>(count) >= frontier.cells.size();
+}
+
+std::size_t Explorer::overlap_with_last(const OccupancyGrid& grid, const Frontier& frontier) const {
+  return static_cast<std::size_t>(std::count_if(
+      frontier.cells.begin(), frontier.cells.end(),
+      [&](Cell cell) { return looked_at_.find(place_of(grid, cell)) != looked_at_.end(); }));
+}
+
+/// A byte a cell: whether some part of the vehicle could come there, should all that is unknown be
+/// free.
+std::vector<std::uint8_t> Explorer::could_be_swept(const OccupancyGrid& grid, Cell start) {
+  hope_.update(grid);
+  OccupancyGrid centres(grid.params(), grid.origin(), grid.width(), grid.height());
+  const CellWays ways(StandingSpace(hope_, params_.clearance), start);
+  for (const Cell cell : ways.reached()) {
+    centres.set_state(cell, CellState::kOccupied);
+  }
+  DistanceField::Params params;
+  params.max_distance = params_.clearance + grid.resolution();
+  const DistanceField to_centre(centres, params);
+  std::vector<std::uint8_t> swept(to_centre.values().size());
+  for (std::size_t i = 0; i < swept.size(); ++i) {
+    swept[i] = to_centre.values()[i] <= params_.clearance ? 1 : 0;
+  }
+  return swept;
+}
+
+std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
+                                                   const SeenSpace& space, const CellWays& ways,
+                                                   std::vector<Frontier> frontiers) {
+  std::vector<Cell> places;  // the nearest first
+  for (const Cell cell : ways.reached()) {
+    if (cell.x % kLattice == 0 && cell.y % kLattice == 0) places.push_back(cell);
+  }
+  if (places.empty() && !ways.reached().empty()) places.push_back(ways.reached().front());
+  const double range = params_.range / grid.resolution();
+  std::vector<Sight> sights;
+  for (Frontier& frontier : frontiers) {
+    if (frontier.area < params_.least_area || is_given_up(grid, frontier)) continue;
+    const std::vector<Cell> targets = thin_out(frontier.cells, kTargets);
+    const auto enough =
+        static_cast<std::size_t>(std::ceil(params_.coverage * static_cast<double>(targets.size())));
+    std::size_t most = 0;
+    Cell best;
+    for (const Cell place : places) {
+      if (std::hypot(place.x - frontier.middle.x, place.y - frontier.middle.y) > range) continue;
+      const auto seen = static_cast<std::size_t>(std::count_if(
+          targets.begin(), targets.end(), [&](Cell target) { return space.sees(place, target); }));
+      if (seen <= most) continue;
+      most = seen;
+      best = place;
+      if (seen >= enough) break;
+    }
+    if (most == 0) {
+      // Nobody can look into it. Where the vehicle was on the way to do so, the way is not to be
+      // relied on: it would turn back and forth.
+      for (const Cell cell : frontier.cells) {
+        const Place here = place_of(grid, cell);
+        if (tried_.find(here) != tried_.end()) ++looks_[here];
+      }
+      continue;
+    }
+    const std::size_t last = overlap_with_last(grid, frontier);
+    sights.push_back({std::move(frontier), best, ways.length(best), last});
+  }
+  // By the way to them, so that the farthest are left for later where there are too many.
+  std::stable_sort(sights.begin(), sights.end(),
+                   [](const Sight& a, const Sight& b) { return a.way < b.way; });
+  if (sights.size() > kMostPlaces) sights.resize(kMostPlaces);
+  return sights;
+}
+
+/// Counts looks from near at what is a frontier or was one a step ago: a wall may look like one
+/// from afar, and like none from near, again and again.
+void Explorer::look_around(const SeenSpace& space, const OccupancyGrid& grid, Cell vehicle,
+                           const std::vector<Frontier>& frontiers) {
+  std::set<Place> now;
+  for (const Frontier& frontier : frontiers) {
+    for (const Cell cell : frontier.cells) now.insert(place_of(grid, cell));
+  }
+  known_.insert(now.begin(), now.end());
+  const double near = params_.near / grid.resolution();
+  const Cell looked_from = grid.cell_of(viewpoint_);
+  const bool there = std::hypot(looked_from.x - vehicle.x, looked_from.y - vehicle.y) <=
+                     params_.arrival_distance / grid.resolution();
+  for (const Place& place : known_) {
+    const Cell cell = grid.cell_of(
+        {(place.first + 0.5) * grid.resolution(), (place.second + 0.5) * grid.resolution()});
+    if (!space.contains(cell)) continue;
+    const bool is_near = std::hypot(cell.x - vehicle.x, cell.y - vehicle.y) <= near;
+    if (there && looked_at_.find(place) != looked_at_.end()) {
+      ++looks_[place];
+    } else if (is_near && space.sees(vehicle, cell)) {
+      ++looks_[place];
+    }
+  }
+  known_ = std::move(now);
+}
+
+void Explorer::give_up() {
+  for (const Place& place : looked_at_) looks_[place] = params_.patience;
+  looked_at_.clear();
+}
+
+void Explorer::reset() {
+  looked_at_.clear();
+  known_.clear();
+  tried_.clear();
+  looks_.clear();
+  second_chance_ = true;
+}
+
+ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& position,
+                               const Eigen::Vector2d& home) {
+  ExplorationStep step;
+  if (map.empty() || !position.allFinite() || !home.allFinite()) {
+    step.kind = ExplorationStep::Kind::kStuck;
+    step.reason = map.empty() ? "there is no map yet" : "no usable position";
+    return step;
+  }
+  // What lies beyond the edge of the map is unknown, too.
+  OccupancyGrid grid = map;
+  const Eigen::Vector2d size(map.width(), map.height()), border(kBorder, kBorder);
+  const Status covered =
+      grid.cover(map.origin() - border, map.origin() + size * map.resolution() + border);
+  if (!covered.ok()) {
+    step.kind = ExplorationStep::Kind::kStuck;
+    step.reason = covered.error().reason;
+    return step;
+  }
+  field_.update(grid);
+  const StandingSpace standing(field_, params_.clearance);
+  const auto start = standing.nearest(grid.cell_of(position));
+  if (!start) {
+    step.kind = ExplorationStep::Kind::kStuck;
+    step.reason = "no known free place is large enough for the vehicle where it is";
+    return step;
+  }
+  const SeenSpace space(grid);
+  std::vector<Frontier> frontiers =
+      find_frontiers(space, could_be_swept(grid, *start), params_.frontier_extent);
+  look_around(space, grid, *start, frontiers);
+  const CellWays ways(standing, *start);
+  const std::vector<Sight> sights = find_sights(grid, space, ways, std::move(frontiers));
+  step.frontiers = sights.size();
+
+  // Home is where the way ends, if it can be reached: else it ends anywhere.
+  const auto home_cell = standing.nearest(grid.cell_of(home));
+  const bool returns = home_cell && ways.reaches(*home_cell);
+  if (sights.empty()) {
+    step.to_go = returns ? ways.length(*home_cell) : 0.0;
+    looked_at_.clear();
+    // What was given up may be better to see by now.
+    if (looks_.empty() || !std::exchange(second_chance_, false)) return step;
+    looks_.clear();
+    tried_.clear();
+    return this->step(map, position, home);
+  }
+  const std::size_t count = sights.size() + 2;
+  std::vector<std::vector<double>> between(count, std::vector<double>(count, 0.0));
+  const auto set = [&between](std::size_t a, std::size_t b, double length) {
+    between[a][b] = between[b][a] = length;
+  };
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    const CellWays from(standing, sights[i].from);
+    set(0, i + 1, sights[i].way);
+    for (std::size_t j = i + 1; j < sights.size(); ++j) {
+      set(i + 1, j + 1, from.length(sights[j].from));
+    }
+    if (returns) set(i + 1, count - 1, from.length(*home_cell));
+  }
+  std::vector<std::size_t> order = visiting_order(between);
+  step.to_go = length_of(order, between);
+
+  // Two orders of nearly the same length must not take turns.
+  std::size_t next = order[1] - 1;
+  std::size_t kept = next;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (sights[i].last > sights[kept].last) kept = i;
+  }
+  if (kept != next && sights[kept].last > 0) {
+    std::vector<std::size_t> others{kept + 1};
+    for (std::size_t i = 1; i < count; ++i) {
+      if (i != kept + 1) others.push_back(i);
+    }
+    std::vector<std::vector<double>> rest(others.size(), std::vector<double>(others.size()));
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      for (std::size_t j = 0; j < others.size(); ++j) rest[i][j] = between[others[i]][others[j]];
+    }
+    const double length = sights[kept].way + length_of(visiting_order(rest), rest);
+    if (length < step.to_go + params_.persistence) next = kept;
+  }
+  step.kind = ExplorationStep::Kind::kLook;
+  step.viewpoint = viewpoint_ = grid.center_of(sights[next].from);
+  looked_at_.clear();
+  for (const Cell cell : sights[next].frontier.cells) looked_at_.insert(place_of(grid, cell));
+  tried_.insert(looked_at_.begin(), looked_at_.end());
+  return step;
+}
+
+}  // namespace swiftlet

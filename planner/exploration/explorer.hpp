@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "perception/distance_field.hpp"
+#include "perception/occupancy_grid.hpp"
+#include "planner/exploration/frontiers.hpp"
+
+namespace swiftlet {
+
+/// Where to look next.
+struct ExplorationStep {
+  enum class Kind {
+    kLook,      ///< fly to the viewpoint
+    kFinished,  ///< nothing that can be reached shows anything new
+    kStuck,     ///< the vehicle stands where it cannot know a way: the reason says why
+  };
+  Kind kind = Kind::kFinished;
+  Eigen::Vector2d viewpoint = Eigen::Vector2d::Zero();  ///< of kLook [m]
+  std::size_t frontiers = 0;                            ///< that can be looked into
+  double to_go = 0.0;  ///< past all of them and home, as far as is known [m]
+  std::string reason;  ///< of kStuck
+};
+
+/// Exploration of an unknown place: all frontiers that some reachable place looks into are put into
+/// one short way that ends at home (Kulich, Faigl and Preucil, On distance utility in the
+/// exploration task, ICRA 2011; Zhou et al., FUEL, RA-L 2021), and the first of them is looked
+/// into, from the nearest place that sees most of it. To be asked again while the vehicle flies: a
+/// frontier that has been seen on the way is none any more.
+///
+/// The vehicle flies through known free space alone. Every wait ends: a frontier that stays one
+/// although it was looked into for `patience`, or to whose viewpoint nobody finds a way, is given
+/// up.
+class Explorer {
+ public:
+  struct Params {
+    double clearance = 0.40;        ///< of ways and viewpoints, from the centre [m]
+    double range = 6.0;             ///< a frontier is looked into from no farther [m]
+    double frontier_extent = 1.5;   ///< a longer one is several [m]
+    double least_area = 0.05;       ///< less that is unseen is not worth a look [m^2]
+    double coverage = 0.7;          ///< share of a frontier that a viewpoint should see
+    double persistence = 1.0;       ///< another frontier comes first if that saves so much [m]
+    double near = 3.0;              ///< in sight and nearer counts as a look [m]
+    double arrival_distance = 0.3;  ///< so near to the viewpoint, every step does [m]
+    int patience = 5;               ///< looks, one a step, after which nothing new is expected
+  };
+
+  Explorer() : Explorer(Params{}) {}
+  explicit Explorer(const Params& params);
+
+  /// The next look, for a vehicle at `position` that will end at `home` [m].
+  ExplorationStep step(const OccupancyGrid& map, const Eigen::Vector2d& position,
+                       const Eigen::Vector2d& home);
+  /// Nobody finds a way to the viewpoint of the last step: what it was for is given up.
+  void give_up();
+  /// Forgets what was given up.
+  void reset();
+
+  const Params& params() const { return params_; }
+
+ private:
+  struct Sight;  // a frontier and a place that looks into it
+  /// A cell by its place in the world: those of a map change as it grows.
+  using Place = std::pair<int, int>;
+  static Place place_of(const OccupancyGrid& grid, Cell cell);
+
+  std::vector<std::uint8_t> could_be_swept(const OccupancyGrid& grid, Cell start);
+  std::vector<Sight> find_sights(const OccupancyGrid& grid, const SeenSpace& space,
+                                 const class CellWays& ways, std::vector<Frontier> frontiers);
+  bool is_given_up(const OccupancyGrid& grid, const Frontier& frontier) const;
+  std::size_t overlap_with_last(const OccupancyGrid& grid, const Frontier& frontier) const;
+  void look_around(const SeenSpace& space, const OccupancyGrid& grid, Cell vehicle,
+                   const std::vector<Frontier>& frontiers);
+
+  Params params_;
+  DistanceField field_;                                  // distance to what is not known to be free
+  DistanceField hope_;                                   // distance to what is known not to be free
+  std::set<Place> looked_at_;                            // frontier that the last step was for
+  Eigen::Vector2d viewpoint_ = Eigen::Vector2d::Zero();  // of the last step
+  std::set<Place> known_;                                // all frontiers of the last step
+  std::set<Place> tried_;                                // all frontiers that a step was for
+  bool second_chance_ = true;
+  std::map<Place, int> looks_;  // at frontiers, from near
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+// A point that scans and walks through random houses, where the explorer says.
+#include "planner/exploration/explorer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/exploration/exploration_walk.hpp"
+#include "tests/slowdown.hpp"
+
+namespace swiftlet {
+namespace {
+
+using Kind = ExplorationStep::Kind;
+using test::ExplorationWalk;
+using test::RandomHouse;
+
+constexpr double kClearance = 0.35;
+
+Explorer::Params params() {
+  Explorer::Params params;
+  params.clearance = kClearance;
+  return params;
+}
+
+TEST(Explorer, SeesAllOfRandomHousesAndComesHome) {
+  const unsigned houses = test::kSlowdown > 1 ? 1 : 5;
+  for (unsigned seed = 1; seed <= houses; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomHouse house(seed);
+    const Eigen::Vector2d start = house.free_place(0.6);
+    Explorer explorer(params());
+    ExplorationWalk walk(house, start);
+    ASSERT_TRUE(walk.run(
+        [&](const OccupancyGrid& grid, const Eigen::Vector2d& position) {
+          return explorer.step(grid, position, start);
+        },
+        kClearance));
+    EXPECT_GE(walk.mapped_share(house, start, kClearance), 0.99);
+    EXPECT_LT(walk.length, 120.0) << "it turns back and forth";
+  }
+}
+
+TEST(Explorer, AHouseThatIsKnownIsFinishedAtOnce) {
+  RandomHouse house(3);
+  const Eigen::Vector2d start = house.free_place(0.6);
+  ExplorationWalk walk(house, start);
+  Explorer first(params());
+  ASSERT_TRUE(
+      walk.run([&](const OccupancyGrid& grid,
+                   const Eigen::Vector2d& position) { return first.step(grid, position, start); },
+               kClearance));
+  Explorer second(params());
+  EXPECT_EQ(second.step(walk.grid, start, start).kind, Kind::kFinished);
+}
+
+TEST(Explorer, TheSameMapsGiveTheSameSteps) {
+  std::vector<Eigen::Vector2d> tracks[2];
+  for (auto& track : tracks) {
+    RandomHouse house(2);
+    const Eigen::Vector2d start = house.free_place(0.6);
+    Explorer explorer(params());
+    ExplorationWalk walk(house, start);
+    (void)walk.run(
+        [&](const OccupancyGrid& grid, const Eigen::Vector2d& position) {
+          return explorer.step(grid, position, start);
+        },
+        kClearance);
+    track = walk.track;
+  }
+  EXPECT_EQ(tracks[0], tracks[1]);
+}
+
+TEST(Explorer, WhatCannotBeReachedIsGivenUp) {
+  RandomHouse house(4);
+  const Eigen::Vector2d start = house.free_place(0.6);
+  ExplorationWalk walk(house, start);
+  Explorer explorer(params());
+  walk.scan();
+  // Nobody ever finds a way: every frontier is given up, twice at most.
+  int steps = 0;
+  while (explorer.step(walk.grid, start, start).kind == Kind::kLook) {
+    explorer.give_up();
+    ASSERT_LT(++steps, 200);
+  }
+  EXPECT_GT(steps, 2);
+  explorer.reset();
+  EXPECT_EQ(explorer.step(walk.grid, start, start).kind, Kind::kLook);
+}
+
+TEST(Explorer, WithoutAMapOrAPlaceItIsStuckAndSaysWhy) {
+  Explorer explorer(params());
+  const ExplorationStep nowhere = explorer.step(OccupancyGrid(), {0.0, 0.0}, {0.0, 0.0});
+  EXPECT_EQ(nowhere.kind, Kind::kStuck);
+  EXPECT_EQ(nowhere.reason, "there is no map yet");
+  RandomHouse house(1);
+  ExplorationWalk walk(house, house.free_place(0.6));
+  walk.scan();
+  EXPECT_EQ(explorer.step(walk.grid, {NAN, 0.0}, {0.0, 0.0}).kind, Kind::kStuck);
+  const ExplorationStep outside = explorer.step(walk.grid, {-40.0, 3.0}, {0.0, 0.0});
+  EXPECT_EQ(outside.kind, Kind::kStuck);
+  EXPECT_EQ(outside.reason, "no known free place is large enough for the vehicle where it is");
+}
+
+}  // namespace
+}  // namespace swiftlet
