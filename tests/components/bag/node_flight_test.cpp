@@ -111,7 +111,8 @@ json of(const swiftlet_msgs::msg::VehicleStatus& m) {
           {"mission_id", m.mission_id()},
           {"waypoint", m.waypoint()},
           {"waypoint_count", m.waypoint_count()},
-          {"mission_done", m.mission_done()}};
+          {"mission_done", m.mission_done()},
+          {"takeoff_point", xyz(m.takeoff_point())}};
 }
 
 /// The value that our own reader gives for one message.
