@@ -288,6 +288,10 @@ FlightDirector::State FlightDirector::state() const {
 void FlightDirector::restore(const State& state) {
   flying_ = state;
   machine_.restore(state.machine);
+  // The explorer says it again; what it said before may be of an earlier exploration.
+  order_.reset();
+  order_heard_.reset();
+  idle_since_.reset();
 }
 
 }  // namespace swiftlet

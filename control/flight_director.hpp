@@ -205,9 +205,9 @@ class FlightDirector {
 
   State flying_;
   std::deque<PlanAnswer> answers_;         // to its goal, since the last tick
-  std::optional<ExplorationOrder> order_;  // since exploration began
-  Time order_heard_{};
-  std::optional<Time> idle_since_;  // in exploration, with nothing to fly
+  std::optional<ExplorationOrder> order_;  // since exploration began, or was taken over
+  std::optional<Time> order_heard_;        // that, or the beginning
+  std::optional<Time> idle_since_;         // in exploration, with nothing to fly
 };
 
 }  // namespace swiftlet

@@ -28,7 +28,7 @@ Result<Acceptance> FlightDirector::explore(Time now) {
   flying_.mission_done = false;
   flying_.cruise_altitude = reference(now).position.z();
   order_.reset();
-  order_heard_ = now;
+  order_heard_.reset();
   idle_since_.reset();
   enter(Mode::kIndoorExploration, now);
   return result;
@@ -43,7 +43,8 @@ void FlightDirector::set_exploration(const ExplorationOrder& order, Time now) {
 void FlightDirector::follow_exploration(Time now) {
   if (flying_.navigation != Navigation::kActive) return;
   if (!guidance_problem_.empty()) return fail_navigation(guidance_problem_);
-  if (to_seconds(now - order_heard_) > params_.exploration_timeout) {
+  if (!order_heard_) order_heard_ = now;
+  if (to_seconds(now - *order_heard_) > params_.exploration_timeout) {
     return fail_navigation(fmt::format("the explorer was not heard for {:.1f} s; is it running?",
                                        params_.exploration_timeout));
   }

@@ -23,8 +23,8 @@ constexpr int kDepth = 512;
 constexpr std::uint64_t kReaderShare = 8;
 /// A crash costs at most what came since the last flush, and what still waits.
 constexpr Duration kFlushPeriod = 500ms;
-/// Samples that waited so long are written without compression, which is several times faster,
-/// until none waits longer than the second.
+/// Once samples have waited so long, they are written without compression, which is several times
+/// faster, until they wait no longer than kInTime.
 constexpr Duration kLate = 150ms;
 constexpr Duration kInTime = 50ms;
 

@@ -40,7 +40,7 @@ struct RecorderParams {
 /// writer says that it was written (in lockstep: the log time). A run with a vehicle records the
 /// topics of that vehicle, without the vehicle in their names: Player puts one before them.
 ///
-/// A thread of its own compresses and writes. Live, samples that find no room in front of it are
+/// A thread of its own compresses and writes; while it is late, it only writes. Live, samples that find no room in front of it are
 /// dropped; like those that DDS lost, they are counted in the file's ledger and told of in the log.
 /// In lockstep nothing is dropped: the run waits. What cannot be written (disk full) ends the run
 /// with exit code 1.

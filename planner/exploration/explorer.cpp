@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <utility>
 
 #include "planner/exploration/cell_ways.hpp"
 #include "planner/exploration/visiting_order.hpp"
@@ -33,6 +34,56 @@ DistanceField::Params field_params(double clearance, bool unknown_is_obstacle) {
   params.unknown_is_obstacle = unknown_is_obstacle;
   params.max_distance = clearance + 0.2;
   return params;
+}
+
+ExplorationStep stuck(std::string reason) {
+  ExplorationStep step;
+  step.kind = ExplorationStep::Kind::kStuck;
+  step.reason = std::move(reason);
+  return step;
+}
+
+/// What lies beyond the edge of a map is unknown, too.
+Result<OccupancyGrid> with_border(const OccupancyGrid& map) {
+  OccupancyGrid grid = map;
+  const Eigen::Vector2d size(map.width(), map.height()), border(kBorder, kBorder);
+  const Status covered =
+      grid.cover(map.origin() - border, map.origin() + size * map.resolution() + border);
+  if (!covered.ok()) return covered.error();
+  return grid;
+}
+
+/// As visiting_order wants them: from the beginning of `ways` past places that they reach, and
+/// home. Where home is not reached, the way may end anywhere.
+std::vector<std::vector<double>> lengths_between(const StandingSpace& standing,
+                                                 const CellWays& ways,
+                                                 const std::vector<Cell>& places,
+                                                 const std::optional<Cell>& home) {
+  const std::size_t count = places.size() + 2;
+  std::vector<std::vector<double>> between(count, std::vector<double>(count, 0.0));
+  const auto set = [&between](std::size_t a, std::size_t b, double length) {
+    between[a][b] = between[b][a] = length;
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const CellWays from(standing, places[i]);
+    set(0, i + 1, ways.length(places[i]));
+    for (std::size_t j = i + 1; j < places.size(); ++j) set(i + 1, j + 1, from.length(places[j]));
+    if (home) set(i + 1, count - 1, from.length(*home));
+  }
+  return between;
+}
+
+/// Of a short way past all places that goes to the `first` before all others.
+double length_beginning_with(std::size_t first, const std::vector<std::vector<double>>& between) {
+  std::vector<std::size_t> rest{first};
+  for (std::size_t i = 1; i < between.size(); ++i) {
+    if (i != first) rest.push_back(i);
+  }
+  std::vector<std::vector<double>> of_rest(rest.size(), std::vector<double>(rest.size()));
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    for (std::size_t j = 0; j < rest.size(); ++j) of_rest[i][j] = between[rest[i]][rest[j]];
+  }
+  return between[0][first] + length_of(visiting_order(of_rest), of_rest);
 }
 
 }  // namespace
@@ -89,7 +140,7 @@ std::vector<std::uint8_t> Explorer::could_be_swept(const OccupancyGrid& grid, Ce
 
 std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
                                                    const SeenSpace& space, const CellWays& ways,
-                                                   std::vector<Frontier> frontiers) {
+                                                   const std::vector<Frontier>& frontiers) {
   std::vector<Cell> places;  // the nearest first
   for (const Cell cell : ways.reached()) {
     if (cell.x % kLattice == 0 && cell.y % kLattice == 0) places.push_back(cell);
@@ -97,7 +148,7 @@ std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
   if (places.empty() && !ways.reached().empty()) places.push_back(ways.reached().front());
   const double range = params_.range / grid.resolution();
   std::vector<Sight> sights;
-  for (Frontier& frontier : frontiers) {
+  for (const Frontier& frontier : frontiers) {
     if (frontier.area < params_.least_area || is_given_up(grid, frontier)) continue;
     const std::vector<Cell> targets = thin_out(frontier.cells, kTargets);
     const auto enough =
@@ -123,7 +174,7 @@ std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
       continue;
     }
     const std::size_t last = overlap_with_last(grid, frontier);
-    sights.push_back({std::move(frontier), best, ways.length(best), last});
+    sights.push_back({frontier, best, ways.length(best), last});
   }
   // By the way to them, so that the farthest are left for later where there are too many.
   std::stable_sort(sights.begin(), sights.end(),
@@ -172,90 +223,61 @@ void Explorer::reset() {
   second_chance_ = true;
 }
 
+/// The sight that comes first in a short way past all of them. Two ways of nearly the same length
+/// must not take turns: what the last step was for comes first as long as that costs little.
+std::size_t Explorer::choose(const std::vector<Sight>& sights,
+                             const std::vector<std::vector<double>>& between, double& to_go) const {
+  const std::vector<std::size_t> order = visiting_order(between);
+  to_go = length_of(order, between);
+  const std::size_t next = order[1] - 1;
+  std::size_t last = next;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (sights[i].last > sights[last].last) last = i;
+  }
+  if (last == next) return next;
+  return length_beginning_with(last + 1, between) < to_go + params_.persistence ? last : next;
+}
+
 ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& position,
                                const Eigen::Vector2d& home) {
-  ExplorationStep step;
-  if (map.empty() || !position.allFinite() || !home.allFinite()) {
-    step.kind = ExplorationStep::Kind::kStuck;
-    step.reason = map.empty() ? "there is no map yet" : "no usable position";
-    return step;
-  }
-  // What lies beyond the edge of the map is unknown, too.
-  OccupancyGrid grid = map;
-  const Eigen::Vector2d size(map.width(), map.height()), border(kBorder, kBorder);
-  const Status covered =
-      grid.cover(map.origin() - border, map.origin() + size * map.resolution() + border);
-  if (!covered.ok()) {
-    step.kind = ExplorationStep::Kind::kStuck;
-    step.reason = covered.error().reason;
-    return step;
-  }
+  if (map.empty()) return stuck("there is no map yet");
+  if (!position.allFinite() || !home.allFinite()) return stuck("no usable position");
+  const auto bordered = with_border(map);
+  if (!bordered.ok()) return stuck(bordered.error().reason);
+  const OccupancyGrid& grid = *bordered;
   field_.update(grid);
   const StandingSpace standing(field_, params_.clearance);
   const auto start = standing.nearest(grid.cell_of(position));
-  if (!start) {
-    step.kind = ExplorationStep::Kind::kStuck;
-    step.reason = "no known free place is large enough for the vehicle where it is";
-    return step;
-  }
+  if (!start) return stuck("no known free place is large enough for the vehicle where it is");
+
   const SeenSpace space(grid);
-  std::vector<Frontier> frontiers =
+  const CellWays ways(standing, *start);
+  const std::vector<Frontier> frontiers =
       find_frontiers(space, could_be_swept(grid, *start), params_.frontier_extent);
   look_around(space, grid, *start, frontiers);
-  const CellWays ways(standing, *start);
-  const std::vector<Sight> sights = find_sights(grid, space, ways, std::move(frontiers));
-  step.frontiers = sights.size();
-
-  // Home is where the way ends, if it can be reached: else it ends anywhere.
-  const auto home_cell = standing.nearest(grid.cell_of(home));
-  const bool returns = home_cell && ways.reaches(*home_cell);
-  if (sights.empty()) {
-    step.to_go = returns ? ways.length(*home_cell) : 0.0;
-    looked_at_.clear();
-    // What was given up may be better to see by now.
-    if (looks_.empty() || !std::exchange(second_chance_, false)) return step;
+  std::vector<Sight> sights = find_sights(grid, space, ways, frontiers);
+  if (sights.empty() && std::exchange(second_chance_, false)) {
     looks_.clear();
     tried_.clear();
-    return this->step(map, position, home);
+    sights = find_sights(grid, space, ways, frontiers);
   }
-  const std::size_t count = sights.size() + 2;
-  std::vector<std::vector<double>> between(count, std::vector<double>(count, 0.0));
-  const auto set = [&between](std::size_t a, std::size_t b, double length) {
-    between[a][b] = between[b][a] = length;
-  };
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const CellWays from(standing, sights[i].from);
-    set(0, i + 1, sights[i].way);
-    for (std::size_t j = i + 1; j < sights.size(); ++j) {
-      set(i + 1, j + 1, from.length(sights[j].from));
-    }
-    if (returns) set(i + 1, count - 1, from.length(*home_cell));
-  }
-  std::vector<std::size_t> order = visiting_order(between);
-  step.to_go = length_of(order, between);
 
-  // Two orders of nearly the same length must not take turns.
-  std::size_t next = order[1] - 1;
-  std::size_t kept = next;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    if (sights[i].last > sights[kept].last) kept = i;
-  }
-  if (kept != next && sights[kept].last > 0) {
-    std::vector<std::size_t> others{kept + 1};
-    for (std::size_t i = 1; i < count; ++i) {
-      if (i != kept + 1) others.push_back(i);
-    }
-    std::vector<std::vector<double>> rest(others.size(), std::vector<double>(others.size()));
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      for (std::size_t j = 0; j < others.size(); ++j) rest[i][j] = between[others[i]][others[j]];
-    }
-    const double length = sights[kept].way + length_of(visiting_order(rest), rest);
-    if (length < step.to_go + params_.persistence) next = kept;
-  }
-  step.kind = ExplorationStep::Kind::kLook;
-  step.viewpoint = viewpoint_ = grid.center_of(sights[next].from);
+  auto home_cell = standing.nearest(grid.cell_of(home));
+  if (home_cell && !ways.reaches(*home_cell)) home_cell.reset();
+  ExplorationStep step;
+  step.frontiers = sights.size();
   looked_at_.clear();
-  for (const Cell cell : sights[next].frontier.cells) looked_at_.insert(place_of(grid, cell));
+  if (sights.empty()) {
+    step.to_go = home_cell ? ways.length(*home_cell) : 0.0;
+    return step;
+  }
+  std::vector<Cell> places;
+  for (const Sight& sight : sights) places.push_back(sight.from);
+  const Sight& next =
+      sights[choose(sights, lengths_between(standing, ways, places, home_cell), step.to_go)];
+  step.kind = ExplorationStep::Kind::kLook;
+  step.viewpoint = viewpoint_ = grid.center_of(next.from);
+  for (const Cell cell : next.frontier.cells) looked_at_.insert(place_of(grid, cell));
   tried_.insert(looked_at_.begin(), looked_at_.end());
   return step;
 }

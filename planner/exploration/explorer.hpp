@@ -16,6 +16,8 @@
 
 namespace swiftlet {
 
+class CellWays;
+
 /// Where to look next.
 struct ExplorationStep {
   enum class Kind {
@@ -36,13 +38,15 @@ struct ExplorationStep {
 /// into, from the nearest place that sees most of it. To be asked again while the vehicle flies: a
 /// frontier that has been seen on the way is none any more.
 ///
-/// The vehicle flies through known free space alone. Every wait ends: a frontier that stays one
-/// although it was looked into for `patience`, or to whose viewpoint nobody finds a way, is given
-/// up.
+/// A frontier counts where some part of the vehicle could come to what is unseen, should all that
+/// is unknown be free: the unseen inside of furniture is none. The vehicle flies through known free
+/// space alone. Every wait ends: a frontier that stays one after `patience` looks, or to whose
+/// viewpoint nobody finds a way, is given up; once, when nothing else is left, all of these are
+/// tried again.
 class Explorer {
  public:
   struct Params {
-    double clearance = 0.40;        ///< of ways and viewpoints, from the centre [m]
+    double clearance = 0.35;        ///< of ways and viewpoints, from the centre [m]
     double range = 6.0;             ///< a frontier is looked into from no farther [m]
     double frontier_extent = 1.5;   ///< a longer one is several [m]
     double least_area = 0.05;       ///< less that is unseen is not worth a look [m^2]
@@ -74,9 +78,11 @@ class Explorer {
 
   std::vector<std::uint8_t> could_be_swept(const OccupancyGrid& grid, Cell start);
   std::vector<Sight> find_sights(const OccupancyGrid& grid, const SeenSpace& space,
-                                 const class CellWays& ways, std::vector<Frontier> frontiers);
+                                 const CellWays& ways, const std::vector<Frontier>& frontiers);
   bool is_given_up(const OccupancyGrid& grid, const Frontier& frontier) const;
   std::size_t overlap_with_last(const OccupancyGrid& grid, const Frontier& frontier) const;
+  std::size_t choose(const std::vector<Sight>& sights,
+                     const std::vector<std::vector<double>>& between, double& to_go) const;
   void look_around(const SeenSpace& space, const OccupancyGrid& grid, Cell vehicle,
                    const std::vector<Frontier>& frontiers);
 

@@ -149,6 +149,7 @@ FlightDirector::State some_state() {
   state.waiting_since = Time(5600ms);
   state.refusal = "too fast";
   state.navigation = Situation::Navigation::kActive;
+  state.cruise_altitude = 1.5;
   state.navigation_problem = "none";
   state.last_reason = "mission requested";
   return state;
@@ -171,6 +172,7 @@ TEST(StateMessage, CarriesAllThatASuccessorNeeds) {
   EXPECT_EQ(copy.waypoints[1].yaw, std::nullopt);
   EXPECT_EQ(copy.waypoints[1].position, state.waypoints[1].position);
   EXPECT_EQ(copy.goal->waypoint.position, state.goal->waypoint.position);
+  EXPECT_EQ(copy.cruise_altitude, 1.5);
   EXPECT_EQ(copy.navigation_problem, "none");
   for (Time now(5s); now < Time(12s); now += 70ms) {
     EXPECT_EQ(copy.simple.evaluate(now).position, state.simple.evaluate(now).position);

@@ -140,9 +140,11 @@ TEST(FlightDirectorExploration, AnotherDirectorGoesOnWithIt) {
   ASSERT_TRUE(flight.step_until([&] { return flight.vehicle.p_WB.x() > 1.0; }));
   FlightDirector successor(settled());
   successor.restore(flight.director.state());
+  // What it heard in an earlier exploration is no order for this one.
+  successor.set_exploration({Kind::kFinished, Vector2d::Zero(), ""}, flight.now - seconds(60.0));
+  successor.restore(flight.director.state());
   flight.director = successor;
   flight.feed();
-  flight.director.set_exploration(*flight.order, flight.now);
   ASSERT_TRUE(flight.step_until([&] { return flight.is_at(3.0, 1.0); }));
   EXPECT_TRUE(flight.transitions.empty());
 }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <utility>
 
+#include "components/lidar_mapper/grid_message.hpp"
 #include "swiftlet_msgs.h"
 #include "tests/system/recorded.hpp"
 #include "tests/system/system_test.hpp"
@@ -44,6 +45,23 @@ class Flight : public SystemTest {
     EXPECT_THAT(result.report["bag_hash"].dump(), testing::MatchesRegex("\"[0-9a-f]{16}\""));
   }
 };
+
+TEST_F(Flight, TheUnknownHouseIsExploredRoomByRoom) {
+  const Result result = fly(house(), "house", 1);
+  expect_flown(result);
+  EXPECT_GE(result.report["min_clearance_m"].get<double>(), 0.10);
+  EXPECT_LE(result.report["landing_error_m"].get<double>(), 0.10);
+  const auto map =
+      from_msg(last_message<nav_msgs::msg::OccupancyGrid>(path("house.mcap"), "map"), {});
+  // From components/sim/worlds/house.sdf, with nothing on the floor there or near it.
+  const Eigen::Vector2d places[] = {{0.6, 3.6},  {5.0, 0.5},  {5.9, 3.8},  {8.7, 1.5},
+                                    {9.5, 3.8},  {13.3, 0.4}, {0.6, 6.4},  {2.0, 9.6},
+                                    {6.6, 9.6},  {4.9, 6.3},  {7.3, 9.6},  {10.1, 6.3},
+                                    {10.9, 9.6}, {13.6, 6.3}, {13.6, 5.0}, {0.4, 4.6}};
+  for (const Eigen::Vector2d& place : places) {
+    EXPECT_EQ(map.state(map.cell_of(place)), CellState::kFree) << place.transpose();
+  }
+}
 
 TEST_F(Flight, TheOfficeIsFlownWithinItsGoals) {
   const Result result = fly(office(), "office", 1);

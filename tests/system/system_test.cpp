@@ -100,6 +100,9 @@ std::string SystemTest::write(const std::string& name, const std::string& conten
 std::string office() {
   return source_file("components/sim/scenarios/office.yaml");
 }
+std::string house() {
+  return source_file("components/sim/scenarios/house.yaml");
+}
 std::string closed_door() {
   return source_file("components/sim/scenarios/office-closed-door.yaml");
 }

@@ -69,6 +69,7 @@ class SystemTest : public testing::Test {
 
 std::string office();       ///< the scenario that everything is measured with
 std::string closed_door();  ///< the same with a door closed
+std::string house();        ///< eight rooms to explore
 std::string hop_world();    ///< the SDFormat file of hop()
 std::string hop();          ///< one room and one waypoint: the shortest flight that is whole
 

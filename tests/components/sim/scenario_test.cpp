@@ -111,6 +111,7 @@ TEST_F(ScenarioFile, BadInputIsRefusedWithItsLineAndARemedy) {
       {"mission:\n  waypoints:\n    - {x: 1}", {"s.yaml:5", "waypoints[0]", "'y' is missing"}},
       {"mission:\n  waypoints:\n    - {x: .inf, y: 1}", {"s.yaml:5", "finite"}},
       {"mission:\n  waypoints:\n    - {x: 1, y: 1, zz: 1}", {"s.yaml:5", "'zz'", "'z'"}},
+      {"mission: {explore: true, waypoints: [{x: 1, y: 1}]}", {"s.yaml:3", "has no waypoints"}},
       {"mission:\n  waypoints: [1, 2]", {"s.yaml:4", "must be a mapping"}},
       {"obstacles:\n  - {name: a, position: [0, 0, 0], size: [1, -1, 1]}",
        {"s.yaml:4", "positive"}},

@@ -41,7 +41,7 @@ DistanceField field_of(const OccupancyGrid& grid) {
 TEST(CellWays, AreTheShortestInEightDirectionsAndCutNoCorner) {
   const OccupancyGrid grid = drawn({"......", ".####.", "....#.", ".##.#.", "..#..."});
   const CellWays ways(StandingSpace(field_of(grid), 0.0), {0, 0});
-  const double r = grid.resolution(), d = r * 17.0 / 12.0;
+  const double r = grid.resolution();
   EXPECT_DOUBLE_EQ(ways.length({0, 0}), 0.0);
   EXPECT_NEAR(ways.length({0, 4}), 4 * r, 1e-9);
   // (1, 2) to (3, 0): around the corner of the wall, since a disc would touch it.
@@ -51,7 +51,20 @@ TEST(CellWays, AreTheShortestInEightDirectionsAndCutNoCorner) {
   EXPECT_TRUE(std::isinf(ways.length({2, 0})));
   EXPECT_TRUE(std::is_sorted(ways.reached().begin(), ways.reached().end(),
                              [&](Cell a, Cell b) { return ways.length(a) < ways.length(b); }));
-  EXPECT_LT(d, 1.42 * r);
+}
+
+TEST(CellWays, AreAtMostEightPercentLongerThanTheLineWhereNothingIsInTheWay) {
+  OccupancyGrid grid({}, {0.0, 0.0}, 60, 60);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) grid.set_state({x, y}, CellState::kFree);
+  }
+  const CellWays ways(StandingSpace(field_of(grid), 0.0), {30, 30});
+  ASSERT_EQ(ways.reached().size(), 3600U);
+  for (const Cell cell : ways.reached()) {
+    const double line = grid.resolution() * std::hypot(cell.x - 30, cell.y - 30);
+    EXPECT_GE(ways.length(cell), line * 0.999);
+    EXPECT_LE(ways.length(cell), line * 1.09);
+  }
 }
 
 TEST(CellWays, LeadThroughNoGapThatIsTooNarrow) {

@@ -66,7 +66,6 @@ struct RandomHouse {
       return;
     }
     const double at = uniform(room.lower[axis] + kLeastRoom, room.upper[axis] - kLeastRoom - kWall);
-    // No door where another wall meets this one is made sure of by cutting beside doors alone.
     std::vector<double> gaps{uniform(room.lower[along] + 0.3, room.upper[along] - 0.3 - kDoor)};
     if (size[along] > 6.0) {
       const double other = uniform(room.lower[along] + 0.3, room.upper[along] - 0.3 - kDoor);
