@@ -145,7 +145,10 @@ TEST(FlightDirectorExploration, AnotherDirectorGoesOnWithIt) {
   successor.restore(flight.director.state());
   flight.director = successor;
   flight.feed();
-  ASSERT_TRUE(flight.step_until([&] { return flight.is_at(3.0, 1.0); }));
+  ASSERT_TRUE(flight.step_until([&] {
+    EXPECT_NE(flight.last.goal->waypoint.position.x(), 0.0) << "goes home";
+    return flight.is_at(3.0, 1.0);
+  }));
   EXPECT_TRUE(flight.transitions.empty());
 }
 
