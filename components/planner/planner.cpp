@@ -97,6 +97,7 @@ class Planner : public Component {
     goal_.yaw = yaw_of(from_msg(message.pose().orientation()));
     if (goal_identity_ == identity) return;
     goal_identity_ = identity;
+    answered_ = false;
     finished_ = false;
     braking_ = false;
     replanner_.reset();
@@ -122,6 +123,7 @@ class Planner : public Component {
   void adopt(const swiftlet_msgs::msg::Trajectory& answer) {
     goal_identity_ = from_msg(answer.goal_stamp());
     current_ = from_msg(answer);
+    answered_ = !current_.empty();
     braking_ = answer.status() == answers::BRAKE;
     finished_ = answer.status() == answers::FAILED;
   }
@@ -148,10 +150,12 @@ class Planner : public Component {
     const ReplanDecision decision = replanner_.step(input);
     switch (decision.action) {
       case ReplanAction::kKeep:
+        // A goal where the vehicle is, or is going, is answered with what is flown.
+        if (!answered_ && Replanner::leads_to(goal_, current_)) follow();
         break;
       case ReplanAction::kFollow:
         current_ = decision.trajectory;
-        trajectory_.publish(to_msg(current_, *goal_identity_));
+        follow();
         publish_path(decision.path);
         break;
       case ReplanAction::kBrake:
@@ -163,6 +167,11 @@ class Planner : public Component {
         finished_ = true;
         break;
     }
+  }
+
+  void follow() {
+    trajectory_.publish(to_msg(current_, *goal_identity_));
+    answered_ = true;
   }
 
   void answer(std::uint8_t status, const ReplanDecision& decision) {
@@ -189,6 +198,7 @@ class Planner : public Component {
   StalenessWatch goal_watch_;
   std::optional<Time> goal_identity_;
   FlightGoal goal_;
+  bool answered_ = false;  // with a trajectory
   bool finished_ = false;
   bool braking_ = false;
   Trajectory current_;

@@ -44,6 +44,11 @@ void Replanner::reset() {
   brakes_ = 0;
 }
 
+bool Replanner::leads_to(const FlightGoal& goal, const Trajectory& trajectory) {
+  return !trajectory.empty() &&
+         (trajectory.final_reference().position - goal.position).norm() < kSameGoal;
+}
+
 Replanner::Situation Replanner::assess(const Input& input) {
   Situation s;
   const bool has_current = input.current != nullptr && !input.current->empty();
@@ -56,9 +61,7 @@ Replanner::Situation Replanner::assess(const Input& input) {
     const FlatReference now = input.current->evaluate(flown);
     on_track = (now.position - input.vehicle.p_WB).norm() <= params_.tracking_error_max;
     s.under_way = on_track && input.now < input.current->end();
-    s.to_goal =
-        on_track &&
-        (input.current->final_reference().position - input.goal.position).norm() < kSameGoal;
+    s.to_goal = on_track && leads_to(input.goal, *input.current);
   }
   if (on_track) {
     s.start = input.current->evaluate(s.start_time);

@@ -67,6 +67,9 @@ class Replanner {
   /// Forgets everything: the next step plans at once.
   void reset();
 
+  /// Whether a trajectory ends at the goal: then it is kept, and there may never be another.
+  static bool leads_to(const FlightGoal& goal, const Trajectory& trajectory);
+
   const Params& params() const { return params_; }
 
  private:

@@ -222,6 +222,19 @@ TEST(PlannerComponent, LeadsFromTheReferenceToTheGoal) {
   EXPECT_LT((trajectory.final_reference().position - Vector3d(3, 3, 1.2)).norm(), 1e-3);
 }
 
+TEST(PlannerComponent, AGoalWhereTheVehicleIsIsAnsweredTooAndOnce) {
+  PlannerBench bench;
+  bench.send_map(false);
+  bench.send_goal({0, 0, 1.2}, Time(3s));
+  bench.run_until(Time(3s));
+  ASSERT_EQ(bench.heard.size(), 1u);
+  EXPECT_EQ(bench.heard[0].status(), answers::PLANNED);
+  EXPECT_EQ(from_msg(bench.heard[0].goal_stamp()), PlannerBench::kGoalTime);
+  const Trajectory trajectory = from_msg(bench.heard[0]);
+  EXPECT_EQ(trajectory.final_reference().position, Vector3d(0, 0, 1.2));
+  EXPECT_LE(trajectory.end(), Time(600ms)) << "it is there";
+}
+
 TEST(PlannerComponent, AnswersAGoalThatItCannotReachWithAReason) {
   PlannerBench bench;
   bench.send_map(true);
