@@ -28,12 +28,17 @@ std::string last_part(const std::string& topic, std::size_t parts) {
   return at == std::string::npos ? topic : topic.substr(at + 1);
 }
 
-/// Topics that somebody writes only when there is something to say.
+/// Topics that somebody writes only when there is something to say, or in some vehicles: one
+/// without an explorer is well, and the commander says what is missing when it is to explore.
 bool is_written_on_demand(const std::string& wire) {
-  static const std::set<std::string> topics{
-      topic::mode.name,           topic::waypoints.name, topic::goal_pose.name,
-      topic::mode_ack.name,       topic::goal.name,      topic::parameter_request.name,
-      topic::parameter_reply.name};
+  static const std::set<std::string> topics{topic::mode.name,
+                                            topic::waypoints.name,
+                                            topic::goal_pose.name,
+                                            topic::mode_ack.name,
+                                            topic::goal.name,
+                                            topic::exploration.name,
+                                            topic::parameter_request.name,
+                                            topic::parameter_reply.name};
   const std::string name = topic_of("", wire);
   return topics.count(name) != 0 || topics.count(last_part(name, 1)) != 0 ||
          topics.count(last_part(name, 2)) != 0;
