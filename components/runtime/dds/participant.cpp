@@ -20,6 +20,7 @@
 #include "components/runtime/config/config.hpp"
 #include "components/runtime/dds/dds_endpoints.hpp"
 #include "components/runtime/dds/dds_log.hpp"
+#include "components/runtime/dds/departing_readers.hpp"
 #include "components/runtime/dds/discovery_listener.hpp"
 #include "components/runtime/dds/endpoint_qos.hpp"
 #include "components/runtime/dds/gated_transport.hpp"
@@ -83,6 +84,12 @@ class Participant::Impl : public EndpointFactory {
         graph_([](const Conflict& conflict) { logger("graph")->error(describe(conflict)); }),
         listener_(graph_) {
     bridge_dds_log();
+    if (!departing_readers_are_settled()) {
+      logger("participant")
+          ->warn(
+              "Fast DDS may stop for good when a reader leaves: link Swiftlet's runtime into the "
+              "program, not into a shared library");
+    }
     if (!options.isolated) remove_orphaned_segments();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     const auto gate = std::make_shared<std::atomic<bool>>(false);

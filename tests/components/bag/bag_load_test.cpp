@@ -181,7 +181,7 @@ TEST_F(BagLoad, MoreThanTheNetworkBearsIsInTheLedger) {
     test::Process recorder = record({"--overwrite", "--max-memory", "8MB"});
     test::Process speaker = publish({1, 1'000'000, 1000, 3.0, reliability});
     const auto spoken = speaker.wait(test::Seconds(120.0));
-    ASSERT_TRUE(spoken);
+    ASSERT_TRUE(spoken && spoken->exit_code == 0) << speaker.err();
     expect_end(recorder, SIGINT, 0);
     const auto recording = Recording::open({file_});
     ASSERT_TRUE(recording.ok());

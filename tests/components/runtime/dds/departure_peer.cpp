@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+// departure_peer DOMAIN writer        writes large reliable samples, as fast as it can, until
+// killed departure_peer DOMAIN reader TIMES  comes, hears one sample and leaves, TIMES times; exit
+// code 1
+//                                     where nothing is to be heard for five seconds
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "components/runtime/dds/participant.hpp"
+
+using namespace swiftlet;
+
+namespace {
+
+EndpointSpec endpoint(const char* component) {
+  QosProfile qos = qos::keeping(qos::event, 32);
+  qos.large = true;
+  return {"rt/burst", "test::msg::dds_::Blob_", qos, component, nullptr};
+}
+
+int write(Participant& participant) {
+  const auto writer = participant.make_writer(endpoint("speaker"));
+  Cdr sample{0, 1, 0, 0};
+  sample.resize(500'000);
+  while (true) {
+    // Alone, it would fill a core with nothing.
+    if (writer->matched_readers() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    writer->write(sample);
+  }
+}
+
+bool hear(Participant& participant) {
+  std::atomic<bool> heard{false};
+  const auto reader = participant.make_reader(endpoint("listener"), [&] { heard = true; });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!heard && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return heard;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count < 3) return 2;
+  ParticipantOptions options;
+  options.name = arguments[2];
+  options.domain = std::stoi(arguments[1]);
+  Participant participant(options);
+  if (options.name == "writer") return write(participant);
+  for (int i = 0; i < std::stoi(arguments[3]); ++i) {
+    if (hear(participant)) continue;
+    std::printf("nothing was heard at the %d. time\n", i);
+    return 1;
+  }
+  return 0;
+}
