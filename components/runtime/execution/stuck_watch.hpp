@@ -9,10 +9,10 @@
 
 namespace swiftlet {
 
-/// Notices a call into the middleware that does not come back. Fast DDS 2.9 could stop for ever when
-/// a reader left (departing_readers.hpp, where it is kept from it), and other orders of its locks
-/// may be as bad: the process then lives, is forgotten by the others, and says nothing. One that
-/// ends instead is started again, or another instance takes over.
+/// Notices a call into the middleware that does not come back. Fast DDS 2.9 could stop for ever
+/// when a reader left (departing_readers.hpp, where it is kept from it), and other orders of its
+/// locks may be as bad: the process then lives, is forgotten by the others, and says nothing. One
+/// that ends instead is started again, or another instance takes over.
 ///
 /// One for the process; safe to use from any thread. Entering and leaving take some nanoseconds.
 class StuckWatch {
