@@ -20,13 +20,6 @@
 namespace swiftlet {
 namespace {
 
-std::vector<std::string> hosted(const Scenario& scenario) {
-  std::vector<std::string> names{"sim",          "estimator", "flight_controller",
-                                 "lidar_mapper", "planner",   "commander"};
-  if (scenario.mission.explore) names.emplace_back("explorer");
-  return names;
-}
-
 struct FlyOptions {
   std::string scenario;
   bool real_time = false;
@@ -65,7 +58,7 @@ int fly(const FlyOptions& options) {
   }
   host_options.fault_seed = scenario.seed;
   Host host(host_options);
-  const std::vector<std::string> names = hosted(scenario);
+  const std::vector<std::string> names = components_of(scenario);
   for (const std::string& name : names) host.add(name, parameters.child(name));
   auto& pilot = host.emplace<Pilot>("pilot", scenario);
   auto& referee = host.emplace<Referee>("referee");

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/experiments/euroc/euroc.hpp"
+#include "components/experiments/exploration/exploration.hpp"
 #include "components/experiments/planning/planning_benchmark.hpp"
 #include "components/experiments/slam/slam_benchmark.hpp"
 #include "components/experiments/smartphone/smartphone.hpp"
@@ -68,6 +69,8 @@ const std::vector<Experiment>& experiments() {
        run_slam_benchmark},
       {"planning", "public maps in the plane and in space, beside OMPL's planners", true,
        run_planning_benchmark},
+      {"exploration", "the unknown house, explored and left, beside the nearest frontier first",
+       false, run_exploration},
   };
   return all;
 }

@@ -27,10 +27,10 @@ Explorer::Params read_params(const Config& config) {
   config.read("range", params.range, kPositive);
   config.read("frontier_extent", params.frontier_extent, kPositive);
   config.read("least_area", params.least_area, kNotNegative);
-  config.read("coverage", params.coverage, {0.01, 1.0});
-  config.read("persistence", params.persistence, kNotNegative);
+  config.read("greed", params.greed, kNotNegative);
   config.read("near", params.near, kPositive);
   config.read("patience", params.patience, {1, 1000});
+  config.read("to_the_end", params.to_the_end);
   return params;
 }
 

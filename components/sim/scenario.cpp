@@ -130,4 +130,11 @@ Scenario Scenario::read(const Config& config) {
   return scenario;
 }
 
+std::vector<std::string> components_of(const Scenario& scenario) {
+  std::vector<std::string> names{"sim",          "estimator", "flight_controller",
+                                 "lidar_mapper", "planner",   "commander"};
+  if (scenario.mission.explore) names.emplace_back("explorer");
+  return names;
+}
+
 }  // namespace swiftlet

@@ -95,4 +95,7 @@ struct Scenario {
   static Scenario read(const Config& config);
 };
 
+/// The components that fly it, the simulator first.
+std::vector<std::string> components_of(const Scenario& scenario);
+
 }  // namespace swiftlet

@@ -15,19 +15,10 @@ namespace {
 
 /// Viewpoints are looked for in every so many cells along both axes.
 constexpr int kLattice = 4;
-/// Of a frontier, so many cells are looked at from each of them.
-constexpr std::size_t kTargets = 8;
 /// Unknown space around a map [m].
 constexpr double kBorder = 1.0;
 /// In more places no order is sought: those that are farthest away come later [places].
 constexpr std::size_t kMostPlaces = 40;
-
-std::vector<Cell> thin_out(const std::vector<Cell>& cells, std::size_t most) {
-  if (cells.size() <= most) return cells;
-  std::vector<Cell> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(cells[i * cells.size() / most]);
-  return some;
-}
 
 DistanceField::Params field_params(double clearance, bool unknown_is_obstacle) {
   DistanceField::Params params;
@@ -138,6 +129,20 @@ std::vector<std::uint8_t> Explorer::could_be_swept(const OccupancyGrid& grid, Ce
   return swept;
 }
 
+/// The place that is nearest to a frontier and looks into it.
+std::optional<Cell> Explorer::place_at(const Frontier& frontier, const SeenSpace& space,
+                                       const std::vector<Cell>& places, double range) const {
+  std::optional<Cell> best;
+  double least = range;
+  for (const Cell place : places) {
+    const double distance = std::hypot(place.x - frontier.middle.x, place.y - frontier.middle.y);
+    if (distance >= least || !space.sees(place, frontier.middle)) continue;
+    least = distance;
+    best = place;
+  }
+  return best;
+}
+
 std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
                                                    const SeenSpace& space, const CellWays& ways,
                                                    const std::vector<Frontier>& frontiers) {
@@ -150,21 +155,8 @@ std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
   std::vector<Sight> sights;
   for (const Frontier& frontier : frontiers) {
     if (frontier.area < params_.least_area || is_given_up(grid, frontier)) continue;
-    const std::vector<Cell> targets = thin_out(frontier.cells, kTargets);
-    const auto enough =
-        static_cast<std::size_t>(std::ceil(params_.coverage * static_cast<double>(targets.size())));
-    std::size_t most = 0;
-    Cell best;
-    for (const Cell place : places) {
-      if (std::hypot(place.x - frontier.middle.x, place.y - frontier.middle.y) > range) continue;
-      const auto seen = static_cast<std::size_t>(std::count_if(
-          targets.begin(), targets.end(), [&](Cell target) { return space.sees(place, target); }));
-      if (seen <= most) continue;
-      most = seen;
-      best = place;
-      if (seen >= enough) break;
-    }
-    if (most == 0) {
+    const std::optional<Cell> best = place_at(frontier, space, places, range);
+    if (!best) {
       // Nobody can look into it. Where the vehicle was on the way to do so, the way is not to be
       // relied on: it would turn back and forth.
       for (const Cell cell : frontier.cells) {
@@ -174,7 +166,7 @@ std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
       continue;
     }
     const std::size_t last = overlap_with_last(grid, frontier);
-    sights.push_back({frontier, best, ways.length(best), last});
+    sights.push_back({frontier, *best, ways.length(*best), last});
   }
   // By the way to them, so that the farthest are left for later where there are too many.
   std::stable_sort(sights.begin(), sights.end(),
@@ -193,7 +185,7 @@ void Explorer::look_around(const SeenSpace& space, const OccupancyGrid& grid, Ce
   }
   known_.insert(now.begin(), now.end());
   const double near = params_.near / grid.resolution();
-  const Cell looked_from = grid.cell_of(viewpoint_);
+  const Cell looked_from = grid.cell_of(last_.viewpoint);
   const bool there = std::hypot(looked_from.x - vehicle.x, looked_from.y - vehicle.y) <=
                      params_.arrival_distance / grid.resolution();
   for (const Place& place : known_) {
@@ -223,19 +215,25 @@ void Explorer::reset() {
   second_chance_ = true;
 }
 
-/// The sight that comes first in a short way past all of them. Two ways of nearly the same length
-/// must not take turns: what the last step was for comes first as long as that costs little.
+/// What the last step was for, as long as it is a frontier: who changes his mind on the way stops,
+/// turns, and does it again. Then the nearest, unless that makes the way past all of them longer by
+/// more than `greed`; else the one that comes first in a short way.
 std::size_t Explorer::choose(const std::vector<Sight>& sights,
                              const std::vector<std::vector<double>>& between, double& to_go) const {
   const std::vector<std::size_t> order = visiting_order(between);
   to_go = length_of(order, between);
-  const std::size_t next = order[1] - 1;
-  std::size_t last = next;
+  std::size_t last = 0;
   for (std::size_t i = 0; i < sights.size(); ++i) {
     if (sights[i].last > sights[last].last) last = i;
   }
-  if (last == next) return next;
-  return length_beginning_with(last + 1, between) < to_go + params_.persistence ? last : next;
+  if (sights[last].last > 0) return last;
+  const std::size_t first = order[1] - 1;
+  if (first == 0) return first;
+  return length_beginning_with(1, between) <= to_go + params_.greed ? 0 : first;
+}
+
+bool Explorer::is_on_the_way(const Eigen::Vector2d& position) const {
+  return !looked_at_.empty() && (position - last_.viewpoint).norm() > params_.arrival_distance;
 }
 
 ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& position,
@@ -252,6 +250,10 @@ ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& 
 
   const SeenSpace space(grid);
   const CellWays ways(standing, *start);
+  if (params_.to_the_end && is_on_the_way(position) &&
+      ways.reaches(grid.cell_of(last_.viewpoint))) {
+    return last_;
+  }
   const std::vector<Frontier> frontiers =
       find_frontiers(space, could_be_swept(grid, *start), params_.frontier_extent);
   look_around(space, grid, *start, frontiers);
@@ -276,9 +278,10 @@ ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& 
   const Sight& next =
       sights[choose(sights, lengths_between(standing, ways, places, home_cell), step.to_go)];
   step.kind = ExplorationStep::Kind::kLook;
-  step.viewpoint = viewpoint_ = grid.center_of(next.from);
+  step.viewpoint = grid.center_of(next.from);
   for (const Cell cell : next.frontier.cells) looked_at_.insert(place_of(grid, cell));
   tried_.insert(looked_at_.begin(), looked_at_.end());
+  last_ = step;
   return step;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,11 +33,11 @@ struct ExplorationStep {
   std::string reason;  ///< of kStuck
 };
 
-/// Exploration of an unknown place: all frontiers that some reachable place looks into are put into
-/// one short way that ends at home (Kulich, Faigl and Preucil, On distance utility in the
-/// exploration task, ICRA 2011; Zhou et al., FUEL, RA-L 2021), and the first of them is looked
-/// into, from the nearest place that sees most of it. To be asked again while the vehicle flies: a
-/// frontier that has been seen on the way is none any more.
+/// Exploration of an unknown place, frontier by frontier: the nearest first (Yamauchi, CIRA 1997),
+/// unless a short way past all of them that ends at home begins elsewhere and saves more than
+/// `greed` (Kulich, Faigl and Preucil, ICRA 2011). Each is looked into from the place that is
+/// nearest to it. To be asked again while the vehicle flies: a frontier that has been seen on the
+/// way is none any more, and the next one comes at once; until then nothing else does.
 ///
 /// A frontier counts where some part of the vehicle could come to what is unseen, should all that
 /// is unknown be free: the unseen inside of furniture is none. The vehicle flies through known free
@@ -50,11 +51,13 @@ class Explorer {
     double range = 6.0;             ///< a frontier is looked into from no farther [m]
     double frontier_extent = 1.5;   ///< a longer one is several [m]
     double least_area = 0.05;       ///< less that is unseen is not worth a look [m^2]
-    double coverage = 0.7;          ///< share of a frontier that a viewpoint should see
-    double persistence = 1.0;       ///< another frontier comes first if that saves so much [m]
+    double greed = 4.0;             ///< the nearest comes first if that costs no more [m]
     double near = 3.0;              ///< in sight and nearer counts as a look [m]
     double arrival_distance = 0.3;  ///< so near to the viewpoint, every step does [m]
     int patience = 5;               ///< looks, one a step, after which nothing new is expected
+    /// On to the viewpoint even where everything has been seen from the way: with endless greed
+    /// the rule of 1997, which others are measured against.
+    bool to_the_end = false;
   };
 
   Explorer() : Explorer(Params{}) {}
@@ -79,7 +82,10 @@ class Explorer {
   std::vector<std::uint8_t> could_be_swept(const OccupancyGrid& grid, Cell start);
   std::vector<Sight> find_sights(const OccupancyGrid& grid, const SeenSpace& space,
                                  const CellWays& ways, const std::vector<Frontier>& frontiers);
+  std::optional<Cell> place_at(const Frontier& frontier, const SeenSpace& space,
+                               const std::vector<Cell>& places, double range) const;
   bool is_given_up(const OccupancyGrid& grid, const Frontier& frontier) const;
+  bool is_on_the_way(const Eigen::Vector2d& position) const;
   std::size_t overlap_with_last(const OccupancyGrid& grid, const Frontier& frontier) const;
   std::size_t choose(const std::vector<Sight>& sights,
                      const std::vector<std::vector<double>>& between, double& to_go) const;
@@ -87,12 +93,12 @@ class Explorer {
                    const std::vector<Frontier>& frontiers);
 
   Params params_;
-  DistanceField field_;                                  // distance to what is not known to be free
-  DistanceField hope_;                                   // distance to what is known not to be free
-  std::set<Place> looked_at_;                            // frontier that the last step was for
-  Eigen::Vector2d viewpoint_ = Eigen::Vector2d::Zero();  // of the last step
-  std::set<Place> known_;                                // all frontiers of the last step
-  std::set<Place> tried_;                                // all frontiers that a step was for
+  DistanceField field_;        // distance to what is not known to be free
+  DistanceField hope_;         // distance to what is known not to be free
+  std::set<Place> looked_at_;  // frontier that the last step was for
+  ExplorationStep last_;       // that was a look
+  std::set<Place> known_;      // all frontiers of the last step
+  std::set<Place> tried_;      // all frontiers that a step was for
   bool second_chance_ = true;
   std::map<Place, int> looks_;  // at frontiers, from near
 };

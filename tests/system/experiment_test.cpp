@@ -63,6 +63,24 @@ TEST_F(ExperimentVerb, TheFilterBeatsItsPosesOnARealImu) {
   EXPECT_FALSE(rows({"euroc-filter", "--data", (data_folder() / "euroc").string()}).empty());
 }
 
+TEST_F(ExperimentVerb, TheHouseIsExploredWholeAndDrawn) {
+  const Finished finished =
+      run({"experiment", "exploration", "--json", "--seeds", "1", "--report", path("figures")});
+  std::map<std::string, nlohmann::json> all;
+  const auto json = nlohmann::json::parse(finished.out, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << finished.err;
+  for (const auto& row : json["rows"]) all[row["quantity"]] = row;
+  for (const char* goal :
+       {"explored, returned and landed", "share mapped of what can be reached", "contacts"}) {
+    ASSERT_TRUE(all.count(goal)) << goal;
+    EXPECT_TRUE(all.at(goal)["holds"]) << goal;
+  }
+  EXPECT_GT(all.at("length flown")["median"], 40.0);
+  for (const char* figure : {"exploration.png", "exploration-nearest.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder() / "figures" / figure), 10'000U) << figure;
+  }
+}
+
 TEST_F(ExperimentVerb, SaysWhatIsMissing) {
   const Finished without = run({"experiment", "euroc-filter"});
   EXPECT_EQ(without.exit_code, 2);

@@ -7,6 +7,7 @@
 
 #include "planner/exploration/cell_ways.hpp"
 #include "planner/exploration/explorer.hpp"
+#include "planner/exploration/mapped_share.hpp"
 #include "tests/planner/exploration/random_house.hpp"
 
 namespace swiftlet::test {
@@ -76,8 +77,7 @@ struct ExplorationWalk {
     length += walked;
   }
 
-  /// Of all that a disc of the given radius could come to from `start`, the share that is known to
-  /// be free. A passage that is two cells wider than the disc must not be missed.
+  /// See swiftlet::mapped_share.
   double mapped_share(const RandomHouse& house, const Eigen::Vector2d& start, double radius) const {
     const double cell = grid.resolution();
     OccupancyGrid truth(grid.params(), {-1.0, -1.0},
@@ -89,23 +89,7 @@ struct ExplorationWalk {
         truth.set_state({x, y}, free ? CellState::kFree : CellState::kOccupied);
       }
     }
-    DistanceField::Params params;
-    params.max_distance = 1.0;
-    const CellWays ways(StandingSpace(DistanceField(truth, params), radius + 2.0 * cell),
-                        truth.cell_of(start));
-    OccupancyGrid swept(truth.params(), truth.origin(), truth.width(), truth.height());
-    for (const Cell c : ways.reached()) swept.set_state(c, CellState::kOccupied);
-    const DistanceField to_centre(swept, params);
-    int all = 0, known = 0;
-    for (int y = 0; y < truth.height(); ++y) {
-      for (int x = 0; x < truth.width(); ++x) {
-        if (to_centre.distance({x, y}) > radius) continue;
-        ++all;
-        const Cell seen = grid.cell_of(truth.center_of({x, y}));
-        if (grid.state(seen) == CellState::kFree) ++known;
-      }
-    }
-    return static_cast<double>(known) / all;
+    return swiftlet::mapped_share(truth, grid, start, radius);
   }
 
   static constexpr int kMostSteps = 2000;

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <optional>
+
 #include "tests/planner/exploration/exploration_walk.hpp"
 #include "tests/slowdown.hpp"
 
@@ -33,6 +36,60 @@ TEST(Explorer, SeesAllOfRandomHousesAndComesHome) {
     EXPECT_GE(walk.mapped_share(house, start, kClearance), 0.99);
     EXPECT_LT(walk.length, 120.0) << "it turns back and forth";
   }
+}
+
+/// [m] through some houses, and back.
+double length_through_houses(const Explorer::Params& params) {
+  double length = 0.0;
+  const unsigned houses = test::kSlowdown > 1 ? 1 : 4;
+  for (unsigned seed = 1; seed <= houses; ++seed) {
+    RandomHouse house(seed);
+    const Eigen::Vector2d start = house.free_place(0.6);
+    Explorer explorer(params);
+    ExplorationWalk walk(house, start);
+    const bool finished = walk.run(
+        [&](const OccupancyGrid& grid, const Eigen::Vector2d& position) {
+          return explorer.step(grid, position, start);
+        },
+        kClearance);
+    EXPECT_TRUE(finished) << "house " << seed;
+    length += walk.length;
+    std::printf("house %u: %.1f m\n", seed, walk.length);
+  }
+  return length;
+}
+
+TEST(Explorer, HasAShorterWayThanTheRuleOf1997) {
+  Explorer::Params of_1997;
+  of_1997.greed = 1e9;
+  of_1997.to_the_end = true;
+  const double ours = length_through_houses({});
+  const double theirs = length_through_houses(of_1997);
+  EXPECT_LT(ours, 0.95 * theirs);
+}
+
+TEST(Explorer, ToTheEndMeansToTheViewpoint) {
+  RandomHouse house(3);
+  const Eigen::Vector2d start = house.free_place(0.6);
+  Explorer::Params params;
+  params.to_the_end = true;
+  Explorer explorer(params);
+  ExplorationWalk walk(house, start);
+  std::optional<Eigen::Vector2d> last;
+  int changes = 0;
+  EXPECT_TRUE(walk.run(
+      [&](const OccupancyGrid& grid, const Eigen::Vector2d& position) {
+        ExplorationStep step = explorer.step(grid, position, start);
+        if (last && (step.kind != Kind::kLook || step.viewpoint != *last)) {
+          EXPECT_LE((position - *last).norm(), params.arrival_distance);
+          ++changes;
+        }
+        last.reset();
+        if (step.kind == Kind::kLook) last = step.viewpoint;
+        return step;
+      },
+      kClearance));
+  EXPECT_GT(changes, 3);
 }
 
 TEST(Explorer, AHouseThatIsKnownIsFinishedAtOnce) {
