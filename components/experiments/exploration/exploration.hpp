@@ -6,7 +6,7 @@
 
 namespace swiftlet {
 
-/// The unknown house, explored and left: the way past all frontiers beside the nearest one first.
+/// The unknown house, explored and left: our explorer beside the nearest frontier first (1997).
 Result<ExperimentResult> run_exploration(const ExperimentOptions& options);
 
 }  // namespace swiftlet

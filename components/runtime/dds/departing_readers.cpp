@@ -32,8 +32,8 @@ namespace eprosima::fastrtps::rtps {
 bool StatefulWriter::matched_reader_remove(const GUID_t& reader_guid) {
   const std::lock_guard<RecursiveTimedMutex> lock(mp_mutex);
   for (ReaderProxy* reader : matched_remote_readers_) {
-    if (reader->guid() == reader_guid)
-      reader->acked_changes_set(mp_history->next_sequence_number());
+    if (reader->guid() != reader_guid) continue;
+    reader->acked_changes_set(mp_history->next_sequence_number());
   }
   check_acked_status();
   return library_remove()(this, reader_guid);

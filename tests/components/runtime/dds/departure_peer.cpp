@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-// departure_peer DOMAIN writer        writes large reliable samples, as fast as it can, until
-// killed departure_peer DOMAIN reader TIMES  comes, hears one sample and leaves, TIMES times; exit
-// code 1
-//                                     where nothing is to be heard for five seconds
+// departure_peer DOMAIN writer|reader [TIMES]
+//
+// The writer sends large reliable samples as fast as it can, until it is killed. The reader comes,
+// hears one sample and leaves, so many times; exit code 1 where it hears nothing for five seconds.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
