@@ -202,8 +202,8 @@ Result<ExperimentResult> run_exploration(const ExperimentOptions& options) {
   options.progress(done, done);
   ExperimentResult result{"exploration", options.seeds, table(flights[0], flights[1])};
   if (options.report.empty()) return result;
-  Status drawn = draw(scenario, flights[0].front(), "our explorer",
-                      options.report / "exploration.png");
+  Status drawn =
+      draw(scenario, flights[0].front(), "our explorer", options.report / "exploration.png");
   if (drawn.ok()) {
     drawn = draw(scenario, flights[1].front(), "the nearest frontier first",
                  options.report / "exploration-nearest.png");
