@@ -21,6 +21,12 @@ inline std::uint8_t to_msg(Mode mode) {
       return HOVER;
     case Mode::kLand:
       return LAND;
+    case Mode::kManual:
+      return MANUAL;
+    case Mode::kAssistedManual:
+      return ASSISTED_MANUAL;
+    case Mode::kGpsGuidance:
+      return GPS_GUIDANCE;
     case Mode::kIndoorNavigation:
       return INDOOR_NAVIGATION;
     case Mode::kIndoorExploration:

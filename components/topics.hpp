@@ -29,6 +29,8 @@ inline constexpr Topic<sensor_msgs::msg::BatteryState> battery{"battery", qos::s
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> phone_pose{"phone/pose",
                                                                                  qos::sensor, 34ms};
 
+inline constexpr Topic<sensor_msgs::msg::NavSatFix> gps_fix{"gps/fix", qos::sensor, 200ms};
+
 // Where the vehicle is, and what is around it.
 inline constexpr Topic<nav_msgs::msg::Odometry> odometry{"odometry", qos::state, 10ms};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> tf{"tf", qos::state};
@@ -48,6 +50,12 @@ inline constexpr Topic<swiftlet_msgs::msg::Mission> waypoints{"waypoints", qos::
 /// A mission of one waypoint, from RViz's "2D Goal Pose" and its like. It is said once, so it must
 /// not get lost: reliable, as those tools offer by default.
 inline constexpr Topic<geometry_msgs::msg::PoseStamped> goal_pose{"goal_pose", qos::command};
+/// Who steers; the remote control, whatever it is.
+inline constexpr Topic<swiftlet_msgs::msg::ManualControl> manual_control{"manual_control",
+                                                                         qos::command, 50ms};
+/// That a ground station is there, and to be missed until it says that it leaves.
+inline constexpr Topic<swiftlet_msgs::msg::ComponentStatus> gcs_heartbeat{"gcs/heartbeat",
+                                                                          qos::state, 500ms};
 inline constexpr Topic<swiftlet_msgs::msg::CommandAck> mode_ack{"mode/ack", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::VehicleStatus> vehicle_status{"vehicle/status",
                                                                          qos::state, 100ms};
@@ -59,6 +67,10 @@ inline constexpr Topic<swiftlet_msgs::msg::Exploration> exploration{"exploration
 inline constexpr Topic<nav_msgs::msg::Path> path{"path", qos::state};
 inline constexpr Topic<swiftlet_msgs::msg::Trajectory> trajectory{"trajectory", qos::map};
 inline constexpr Topic<swiftlet_msgs::msg::Setpoint> setpoint{"setpoint", qos::command, 10ms};
+/// What is flown instead, while the guard acts.
+inline constexpr Topic<swiftlet_msgs::msg::Setpoint> guard_setpoint{"guard/setpoint", qos::command};
+inline constexpr Topic<swiftlet_msgs::msg::GuardStatus> guard_status{"guard/status", qos::state,
+                                                                     100ms};
 inline constexpr Topic<swiftlet_msgs::msg::MotorCommand> motors{"motors", qos::command, 4ms};
 
 /// How well things go, for people: read by every ROS 2 diagnostics viewer.
@@ -77,6 +89,7 @@ inline constexpr const char* names[] = {clock.name,
                                         scan.name,
                                         battery.name,
                                         phone_pose.name,
+                                        gps_fix.name,
                                         odometry.name,
                                         tf.name,
                                         tf_static.name,
@@ -86,6 +99,8 @@ inline constexpr const char* names[] = {clock.name,
                                         mode.name,
                                         waypoints.name,
                                         goal_pose.name,
+                                        manual_control.name,
+                                        gcs_heartbeat.name,
                                         mode_ack.name,
                                         vehicle_status.name,
                                         goal.name,
@@ -93,6 +108,8 @@ inline constexpr const char* names[] = {clock.name,
                                         path.name,
                                         trajectory.name,
                                         setpoint.name,
+                                        guard_setpoint.name,
+                                        guard_status.name,
                                         motors.name,
                                         component_status.name,
                                         parameter_request.name,

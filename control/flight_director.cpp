@@ -52,6 +52,22 @@ FlightDirector::FlightDirector(const Params& params) : params_(params), machine_
         "timeouts and sigmas positive, landing_resistance at most landing_depth, "
         "min_battery_percentage from 0 to 1");
   }
+  const bool steerable =
+      params.steering.usable() && usable(params.cruise) &&
+      positive({params.takeover, params.sticks_period, params.sticks_timeout, params.vehicle_radius,
+                params.obstacle_distance, params.obstacles_timeout, params.lowest_range,
+                params.gps_altitude, params.link_timeout}) &&
+      params.takeover > params.steering.dead_band && params.takeover <= 1.0;
+  const bool guarded = params.fence.radius >= 0.0 && std::isfinite(params.fence.radius) &&
+                       params.fence.height >= 0.0 && std::isfinite(params.fence.height) &&
+                       params.critical_battery >= 0.0 && params.low_battery <= 1.0 &&
+                       params.critical_battery <= params.low_battery;
+  if (!steerable || !guarded) {
+    throw std::invalid_argument(
+        "flight director: limits of steering, distances and timeouts must be positive, the dead "
+        "band from 0 to 0.5 and below takeover, which is at most 1, the fence not negative, "
+        "batteries from 0 to 1 with critical_battery <= low_battery");
+  }
 }
 
 void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double position_sigma,
@@ -131,6 +147,8 @@ Situation FlightDirector::situation(Time now) const {
     situation.motors_problem =
         guidance_problem_.empty() ? "no motor commands were heard" : guidance_problem_;
   }
+  situation.sticks_problem = sticks_problem(now);
+  situation.obstacles_problem = obstacles_problem(now);
   situation.navigation = flying_.navigation;
   situation.navigation_problem = flying_.navigation_problem;
   return situation;
@@ -155,6 +173,7 @@ bool FlightDirector::landed(Time now) const {
 
 Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
   if (request.kind == Request::Kind::kExplore) return explore(now);
+  if (request.kind == Request::Kind::kReturn) return go_back(now);
   const Mode before = machine_.mode();
   Result<Acceptance> result = machine_.request(request, situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
@@ -165,10 +184,15 @@ Result<Acceptance> FlightDirector::request(const Request& request, Time now) {
 }
 
 FlightDirector::Directive FlightDirector::tick(Time now) {
+  heed_sticks(now);
+  if (is_steered()) follow_sticks(now);
+  if (machine_.mode() == Mode::kGpsGuidance) follow_legs(now);
   if (machine_.mode() == Mode::kIndoorNavigation) follow_mission(now);
   if (machine_.mode() == Mode::kIndoorExploration) follow_exploration(now);
 
   Situation seen = situation(now);
+  heed_policies(now, seen);
+  heed_guard(now, seen);
   if (machine_.mode() == Mode::kLand) seen.on_ground = landed(now);
   Directive directive;
   directive.transition = machine_.update(seen);
@@ -204,8 +228,10 @@ FlatReference FlightDirector::at_vehicle() const {
 }
 
 void FlightDirector::enter(Mode mode, Time now) {
-  // After a blind descent nothing is known of where the old reference is.
-  const FlatReference flown = std::exchange(flying_.blind, false) ? at_vehicle() : reference(now);
+  // After a blind descent nothing is known of where the old reference is, and the guard does not
+  // follow it.
+  const bool unknown = std::exchange(flying_.blind, false) || guard_acting_;
+  const FlatReference flown = unknown ? at_vehicle() : reference(now);
   flying_.navigation = Navigation::kInactive;
   flying_.goal.reset();
   answers_.clear();
@@ -231,12 +257,20 @@ void FlightDirector::enter(Mode mode, Time now) {
       stop(sonar_near_ground() && low() ? at_vehicle() : flown, now);
       break;
     case Mode::kHover:
+    case Mode::kManual:
+    case Mode::kAssistedManual:
       stop(flown, now);
       break;
+    case Mode::kGpsGuidance:
     case Mode::kIndoorNavigation:
     case Mode::kIndoorExploration:
       stop(flown, now);
       flying_.navigation = Navigation::kActive;
+      if (machine_.returning()) {
+        const Eigen::Vector3d& home = flying_.takeoff_point;
+        flying_.waypoints = {{{home.x(), home.y(), flown.position.z()}, std::nullopt}};
+        flying_.waypoint = 0;
+      }
       break;
   }
 }

@@ -11,6 +11,8 @@
 #include "control/flight_loop.hpp"
 #include "control/flight_reference.hpp"
 #include "control/mode_machine.hpp"
+#include "control/steering.hpp"
+#include "perception/near_obstacles.hpp"
 #include "planner/trajectory/piecewise_polynomial.hpp"
 
 namespace swiftlet {
@@ -36,6 +38,12 @@ struct PlanGoal {
   MissionWaypoint waypoint;  ///< with the yaw to arrive with
 };
 
+/// A cylinder around the take-off point that is not to be left; 0 is no limit.
+struct Geofence {
+  double radius = 0.0;  ///< [m]
+  double height = 0.0;  ///< above the take-off point [m]
+};
+
 /// What the explorer says.
 struct ExplorationOrder {
   enum class Kind { kLook, kFinished, kStuck };
@@ -47,8 +55,9 @@ struct ExplorationOrder {
 /// Turns requests, missions and plans into one setpoint a tick: the mode machine decides what is
 /// flown, this class how. Pure: time and everything else is passed in.
 ///
-/// Take-off and landing are vertical moves with bounded jerk, Hover brakes and holds, Indoor
-/// Navigation follows the planner's trajectories. A mission goes from waypoint to waypoint and
+/// Take-off and landing are vertical moves with bounded jerk, Hover brakes and holds, Manual and
+/// Assisted Manual follow the sticks, GPS Guidance flies straight lines, Indoor Navigation follows
+/// the planner's trajectories. A mission goes from waypoint to waypoint and
 /// rests at each; a goal is set at rest only, so that planner and director agree where it begins. A
 /// trajectory that begins neither on the reference that is flown nor at the vehicle is refused,
 /// and the vehicle stops. When there is no plan in time, the mission ends in Hover, and the reason
@@ -85,7 +94,29 @@ class FlightDirector {
     /// Unbroken estimate before take-off: what is learnt of the sensors in that time is what
     /// carries the vehicle down when the estimator dies during the climb [s].
     double settling_to_arm = 8.0;
-    double min_battery_percentage = 0.15;  ///< to take off [0..1]
+    double min_battery_percentage = 0.30;  ///< to take off [0..1]
+
+    SteeringLimits steering;
+    double takeover = 0.25;        ///< a stick this far from its centre takes over from any mode
+    double sticks_period = 0.15;   ///< sticks not heard for so long count as released [s]
+    double sticks_timeout = 0.5;   ///< and for so long as gone [s]
+    double vehicle_radius = 0.25;  ///< of the disc that contains the vehicle [m]
+    double obstacle_distance = 0.305;  ///< from there on sticks are stopped: 1 ft in seed 004 [m]
+    double obstacles_timeout = 0.5;    ///< what was seen earlier is not seen any more [s]
+    double lowest_range = 0.40;        ///< of the sonar, to which sticks descend [m]
+
+    double gps_altitude = 15.24;  ///< above the take-off point: 50 ft in seed 004 [m]
+    ReferenceLimits cruise{3.0, 1.5, 6.0, 2.0, 10.0};  ///< of GPS Guidance
+
+    using Demand = Situation::Demand;
+    Geofence fence;
+    Demand on_fence = Demand::kReturn;  ///< when the fence is left
+    double low_battery = 0.20;          ///< [0..1]
+    Demand on_low_battery = Demand::kReturn;
+    double critical_battery = 0.10;  ///< [0..1]
+    Demand on_critical_battery = Demand::kLand;
+    double link_timeout = 5.0;  ///< of a ground station that was there [s]
+    Demand on_link_loss = Demand::kReturn;
   };
 
   struct Status {
@@ -122,6 +153,7 @@ class FlightDirector {
     std::string refusal;                ///< of the last plan, where it was refused
     bool mission_done = false;
     double cruise_altitude = 0.0;  ///< of an exploration, in the map [m]
+    std::uint32_t demanded = 0;    ///< policies that have had their say, a bit each
     Situation::Navigation navigation = Situation::Navigation::kInactive;
     std::string navigation_problem;
     std::string last_reason;
@@ -137,6 +169,16 @@ class FlightDirector {
   void set_range_down(double range);
   /// What is no number is a battery that is not measured; it does not keep from flying.
   void set_battery(double percentage);
+  /// Heard at `time`; what is no number is ignored.
+  void set_sticks(const Sticks& sticks, Time time);
+  /// What was seen around at `time`.
+  void set_obstacles(NearObstacles obstacles, Time time);
+  /// That a ground station is there, heard at `time`. One that was never there is not missed.
+  void set_link_heard(Time time) { link_heard_ = time; }
+  /// It said that it leaves: it is not missed.
+  void set_link_left() { link_heard_.reset(); }
+  /// What the guard says, heard at `time`: whether it flies instead of us, and why.
+  void set_guard(bool acting, const std::string& reason, Time time);
   /// That the flight controller is alive, heard at `time`.
   void set_motors_heard(Time time) { motors_heard_ = time; }
 
@@ -144,6 +186,9 @@ class FlightDirector {
   Result<Acceptance> request(const Request& request, Time now);
   /// Checks the mission and begins to fly it. `id` is the same for the same waypoints.
   Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
+  /// The same in straight lines, each leg at the height of its end (GPS Guidance).
+  Result<Acceptance> fly_straight(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints,
+                                  Time now);
   void set_plan(const PlanAnswer& answer);
   /// Where to fly in Indoor Exploration; heard at `now`.
   void set_exploration(const ExplorationOrder& order, Time now);
@@ -154,12 +199,15 @@ class FlightDirector {
   void set_system_problem(const std::string& problem) { system_problem_ = problem; }
   /// Why missions cannot be flown (any longer): those who plan or map fell silent. "" where they
   /// can.
-  void set_guidance_problem(const std::string& problem) { guidance_problem_ = problem; }
+  void set_guidance_problem(const std::string& problem);
 
   Directive tick(Time now);
   Status status(Time now) const;
   /// Of the reference that is flown, above the origin of the map [m].
   double altitude(Time now) const { return reference(now).position.z(); }
+
+  /// A person steers it: Manual or Assisted Manual.
+  bool is_steered() const;
 
   State state() const;
   void restore(const State& state);
@@ -178,6 +226,24 @@ class FlightDirector {
   void stop(const FlatReference& from, Time now);
   void sink(Time now);
 
+  void heed_sticks(Time now);
+  void follow_sticks(Time now);
+  std::string sticks_problem(Time now) const;
+  std::string obstacles_problem(Time now) const;
+  Steering allowed(Steering wanted, Time now) const;
+  bool stays_clear(const Trajectory& candidate) const;
+
+  void follow_legs(Time now);
+  void heed_policies(Time now, Situation& situation);
+  void heed_guard(Time now, Situation& situation);
+  double way_to_fence(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
+  std::string fence_problem(const Eigen::Vector3d& place, double slack = 0.0) const;
+  std::string plan_leaves_fence(const Trajectory& plan) const;
+  std::string mission_problem(const std::vector<MissionWaypoint>& waypoints) const;
+  Result<Acceptance> begin(const Request& request, const std::vector<MissionWaypoint>& waypoints,
+                           Time now);
+  Result<Acceptance> go_back(Time now);
+
   bool is_guided() const;
   void follow_mission(Time now);
   Result<Acceptance> explore(Time now);
@@ -187,6 +253,8 @@ class FlightDirector {
   std::string goal_name() const;
   void take_answer(const PlanAnswer& answer, Time now);
   std::string plan_problem(const Trajectory& plan, Time now) const;
+  bool arrived(const Eigen::Vector3d& place) const;
+  void next_waypoint();
   void fail_navigation(const std::string& problem);
 
   Params params_;
@@ -200,6 +268,15 @@ class FlightDirector {
   std::optional<double> range_down_;
   std::optional<double> battery_percentage_;
   std::optional<Time> motors_heard_;
+  Sticks sticks_;
+  std::optional<Time> sticks_heard_;
+  NearObstacles obstacles_;
+  std::optional<Time> obstacles_seen_;
+  std::optional<Time> link_heard_;
+  bool guard_acting_ = false;
+  bool must_release_ = false;  // the sticks, before they are heeded again
+  std::string guard_reason_;
+  std::optional<Time> guard_heard_;  // forgotten once its silence was told
   std::string system_problem_;
   std::string guidance_problem_;
 

@@ -37,25 +37,40 @@ bool moderate(const Trajectory& plan) {
 
 }  // namespace
 
+/// Why a mission cannot be flown; "" where it can.
+std::string FlightDirector::mission_problem(const std::vector<MissionWaypoint>& waypoints) const {
+  if (waypoints.empty()) return "it has no waypoints";
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const Eigen::Vector3d& position = waypoints[i].position;
+    const bool usable = position.allFinite() &&
+                        position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
+                        std::isfinite(waypoints[i].yaw.value_or(0.0));
+    if (!usable) return fmt::format("waypoint {} is not a place that can be flown to", i + 1);
+    const std::string fence = fence_problem(position);
+    if (!fence.empty()) return fmt::format("waypoint {} is {}", i + 1, fence);
+  }
+  return "";
+}
+
 Result<Acceptance> FlightDirector::fly(std::uint64_t id,
                                        const std::vector<MissionWaypoint>& waypoints, Time now) {
-  std::string problem;
-  if (waypoints.empty()) problem = "it has no waypoints";
-  if (!guidance_problem_.empty()) problem = guidance_problem_;
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const bool usable = waypoints[i].position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
-                        waypoints[i].position.allFinite() &&
-                        std::isfinite(waypoints[i].yaw.value_or(0.0));
-    if (!usable) problem = fmt::format("waypoint {} is not a place that can be flown to", i + 1);
-  }
-  const bool replaced = machine_.mode() == Mode::kIndoorNavigation;
-  Result<Acceptance> result = machine_.request(Request::navigate(id, problem), situation(now));
+  std::string problem = mission_problem(waypoints);
+  if (problem.empty()) problem = guidance_problem_;
+  return begin(Request::navigate(id, problem), waypoints, now);
+}
+
+/// Asks for the mode that flies the waypoints, and begins.
+Result<Acceptance> FlightDirector::begin(const Request& request,
+                                         const std::vector<MissionWaypoint>& waypoints, Time now) {
+  const Mode before = machine_.mode();
+  Result<Acceptance> result = machine_.request(request, situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
-  flying_.last_reason = replaced ? "another mission requested" : "mission requested";
+  flying_.last_reason =
+      machine_.mode() == before ? "another mission requested" : "mission requested";
   flying_.waypoints = waypoints;
   flying_.waypoint = 0;
   flying_.mission_done = false;
-  enter(Mode::kIndoorNavigation, now);
+  enter(machine_.mode(), now);
   return result;
 }
 
@@ -77,6 +92,7 @@ void FlightDirector::set_goal(const MissionWaypoint& waypoint, Time now) {
 }
 
 std::string FlightDirector::goal_name() const {
+  if (machine_.returning()) return "the take-off point";
   if (machine_.mode() == Mode::kIndoorNavigation) {
     return fmt::format("waypoint {}", flying_.waypoint + 1);
   }
@@ -103,6 +119,8 @@ std::string FlightDirector::plan_problem(const Trajectory& plan, Time now) const
     if (earlier.start() < plan.start()) flown = earlier.evaluate(begin);
   }
   const FlatReference first = plan.evaluate(begin);
+  const std::string fence = plan_leaves_fence(plan);
+  if (!fence.empty()) return fence;
   const double gap = (first.position - flown.position).norm();
   const bool continues =
       gap <= params_.plan_gap && (first.velocity - flown.velocity).norm() <= kVelocityGap;
@@ -168,19 +186,30 @@ void FlightDirector::follow_mission(Time now) {
     set_goal(flying_.waypoints[flying_.waypoint], now);
   }
   if (!follow_plans(now)) return;
-  const Eigen::Vector3d to_go = flying_.waypoints[flying_.waypoint].position - state_.p_WB;
-  const bool arrived =
-      to_go.norm() < params_.arrival_distance && state_.v_WB_W.norm() < params_.arrival_speed;
-  if (arrived && flying_.waypoint + 1 == flying_.waypoints.size()) {
-    flying_.navigation = Navigation::kFinished;
-    flying_.mission_done = true;
-  } else if (arrived) {
-    ++flying_.waypoint;
-    set_goal(flying_.waypoints[flying_.waypoint], now);
+  const Eigen::Vector3d& goal = flying_.waypoints[flying_.waypoint].position;
+  if (arrived(goal)) {
+    next_waypoint();
+    if (flying_.navigation == Navigation::kActive) {
+      set_goal(flying_.waypoints[flying_.waypoint], now);
+    }
   } else if (to_seconds(now - flying_.active->end()) > params_.arrival_timeout) {
     fail_navigation(
-        fmt::format("waypoint {} was missed by {:.2f} m", flying_.waypoint + 1, to_go.norm()));
+        fmt::format("{} was missed by {:.2f} m", goal_name(), (goal - state_.p_WB).norm()));
   }
+}
+
+bool FlightDirector::arrived(const Eigen::Vector3d& place) const {
+  return (place - state_.p_WB).norm() < params_.arrival_distance &&
+         state_.v_WB_W.norm() < params_.arrival_speed;
+}
+
+void FlightDirector::next_waypoint() {
+  if (flying_.waypoint + 1 < flying_.waypoints.size()) {
+    ++flying_.waypoint;
+    return;
+  }
+  flying_.navigation = Navigation::kFinished;
+  flying_.mission_done = !machine_.returning();
 }
 
 }  // namespace swiftlet

@@ -22,98 +22,122 @@ constexpr Mode kGrounded = Mode::kGrounded;
 constexpr Mode kTakeoff = Mode::kTakeoff;
 constexpr Mode kHover = Mode::kHover;
 constexpr Mode kLand = Mode::kLand;
+constexpr Mode kManual = Mode::kManual;
+constexpr Mode kAssisted = Mode::kAssistedManual;
+constexpr Mode kGps = Mode::kGpsGuidance;
 constexpr Mode kNavigation = Mode::kIndoorNavigation;
 constexpr Mode kExploration = Mode::kIndoorExploration;
 
 // A take-off to an altitude this close to the last one is the same take-off [m].
 constexpr double kSameAltitude = 1e-3;
 
-// Grounded is listed twice: disarmed and armed. All other modes are armed.
-constexpr std::array kRules{
-    RequestRule{kGrounded, false, Kind::kArm, kGo, kGrounded, ""},
-    RequestRule{kGrounded, false, Kind::kDisarm, kAlready, kGrounded, "disarmed"},
-    RequestRule{kGrounded, false, Kind::kTakeoff, kRefuse, kGrounded, "not armed; send arm first"},
-    RequestRule{kGrounded, false, Kind::kHover, kRefuse, kGrounded,
-                "on the ground; send arm, then takeoff"},
-    RequestRule{kGrounded, false, Kind::kLand, kAlready, kGrounded, "on the ground"},
-    RequestRule{kGrounded, false, Kind::kNavigate, kRefuse, kGrounded,
-                "on the ground; send arm, then takeoff"},
-    RequestRule{kGrounded, false, Kind::kExplore, kRefuse, kGrounded,
-                "on the ground; send arm, then takeoff"},
-
-    RequestRule{kGrounded, true, Kind::kArm, kAlready, kGrounded, "armed"},
-    RequestRule{kGrounded, true, Kind::kDisarm, kGo, kGrounded, ""},
-    RequestRule{kGrounded, true, Kind::kTakeoff, kGo, kTakeoff, ""},
-    RequestRule{kGrounded, true, Kind::kHover, kRefuse, kGrounded,
-                "on the ground; send takeoff first"},
-    RequestRule{kGrounded, true, Kind::kLand, kAlready, kGrounded, "on the ground"},
-    RequestRule{kGrounded, true, Kind::kNavigate, kRefuse, kGrounded,
-                "on the ground; send takeoff first"},
-    RequestRule{kGrounded, true, Kind::kExplore, kRefuse, kGrounded,
-                "on the ground; send takeoff first"},
-
-    RequestRule{kTakeoff, true, Kind::kArm, kAlready, kTakeoff, "armed"},
-    RequestRule{kTakeoff, true, Kind::kDisarm, kRefuse, kTakeoff, "in the air; send land first"},
-    RequestRule{kTakeoff, true, Kind::kTakeoff, kAlready, kTakeoff, "taking off"},
-    RequestRule{kTakeoff, true, Kind::kHover, kGo, kHover, ""},
-    RequestRule{kTakeoff, true, Kind::kLand, kGo, kLand, ""},
-    RequestRule{kTakeoff, true, Kind::kNavigate, kRefuse, kTakeoff,
-                "take-off is not finished; wait for Hover"},
-    RequestRule{kTakeoff, true, Kind::kExplore, kRefuse, kTakeoff,
-                "take-off is not finished; wait for Hover"},
-
-    RequestRule{kHover, true, Kind::kArm, kAlready, kHover, "armed"},
-    RequestRule{kHover, true, Kind::kDisarm, kRefuse, kHover, "in the air; send land first"},
-    RequestRule{kHover, true, Kind::kTakeoff, kAlready, kHover, "in the air"},
-    RequestRule{kHover, true, Kind::kHover, kAlready, kHover, "hovering"},
-    RequestRule{kHover, true, Kind::kLand, kGo, kLand, ""},
-    RequestRule{kHover, true, Kind::kNavigate, kGo, kNavigation, ""},
-    RequestRule{kHover, true, Kind::kExplore, kGo, kExploration, ""},
-
-    RequestRule{kLand, true, Kind::kArm, kAlready, kLand, "armed"},
-    RequestRule{kLand, true, Kind::kDisarm, kRefuse, kLand, "landing; it disarms by itself"},
-    RequestRule{kLand, true, Kind::kTakeoff, kRefuse, kLand,
-                "landing; send hover to stay in the air"},
-    RequestRule{kLand, true, Kind::kHover, kGo, kHover, ""},
-    RequestRule{kLand, true, Kind::kLand, kAlready, kLand, "landing"},
-    RequestRule{kLand, true, Kind::kNavigate, kRefuse, kLand,
-                "landing; send hover to stay in the air"},
-    RequestRule{kLand, true, Kind::kExplore, kRefuse, kLand,
-                "landing; send hover to stay in the air"},
-
-    RequestRule{kNavigation, true, Kind::kArm, kAlready, kNavigation, "armed"},
-    RequestRule{kNavigation, true, Kind::kDisarm, kRefuse, kNavigation,
-                "in the air; send land first"},
-    RequestRule{kNavigation, true, Kind::kTakeoff, kAlready, kNavigation, "in the air"},
-    RequestRule{kNavigation, true, Kind::kHover, kGo, kHover, ""},
-    RequestRule{kNavigation, true, Kind::kLand, kGo, kLand, ""},
-    // The same mission again changes nothing; another one replaces it.
-    RequestRule{kNavigation, true, Kind::kNavigate, kGo, kNavigation, ""},
-    RequestRule{kNavigation, true, Kind::kExplore, kGo, kExploration, ""},
-
-    RequestRule{kExploration, true, Kind::kArm, kAlready, kExploration, "armed"},
-    RequestRule{kExploration, true, Kind::kDisarm, kRefuse, kExploration,
-                "in the air; send land first"},
-    RequestRule{kExploration, true, Kind::kTakeoff, kAlready, kExploration, "in the air"},
-    RequestRule{kExploration, true, Kind::kHover, kGo, kHover, ""},
-    RequestRule{kExploration, true, Kind::kLand, kGo, kLand, ""},
-    RequestRule{kExploration, true, Kind::kNavigate, kGo, kNavigation, ""},
-    RequestRule{kExploration, true, Kind::kExplore, kAlready, kExploration, "exploring"},
+/// One answer of a mode.
+struct Cell {
+  Answer answer;
+  Mode to;             // kGo
+  const char* reason;  // else
 };
+constexpr Cell go(Mode to) {
+  return {kGo, to, ""};
+}
+constexpr Cell already(const char* what) {
+  return {kAlready, kGrounded, what};
+}
+constexpr Cell refuse(const char* why) {
+  return {kRefuse, kGrounded, why};
+}
 
-constexpr std::array<EventRule, 11> kEvents{{
-    {Event::kLanded, kLand, kGrounded},
-    {Event::kEstimateLost, kTakeoff, kLand},
-    {Event::kEstimateLost, kHover, kLand},
-    {Event::kEstimateLost, kNavigation, kLand},
-    {Event::kEstimateLost, kExploration, kLand},
-    {Event::kTakeoffFailed, kTakeoff, kLand},
-    {Event::kReferenceFinished, kTakeoff, kHover},
-    {Event::kNavigationFailed, kNavigation, kHover},
-    {Event::kNavigationFailed, kExploration, kHover},
-    {Event::kNavigationFinished, kNavigation, kHover},
-    {Event::kNavigationFinished, kExploration, kHover},
-}};
+constexpr Cell kArmFirst = refuse("on the ground; send arm, then takeoff");
+constexpr Cell kTakeoffFirst = refuse("on the ground; send takeoff first");
+constexpr Cell kClimbing = refuse("take-off is not finished; wait for Hover");
+constexpr Cell kLanding = refuse("landing; send hover to stay in the air");
+constexpr Cell kInTheAir = refuse("in the air; send land first");
+constexpr Cell kArmed = already("armed");
+constexpr Cell kAirborne = already("in the air");
+constexpr Cell kOnTheGround = already("on the ground");
+
+/// What a mode answers, in the order of kRequestKinds: arm, disarm, takeoff, hover, land; manual,
+/// assist, gps; navigate, explore, return. Grounded is listed twice; all other modes are armed.
+struct Row {
+  Mode mode;
+  bool armed;
+  std::array<Cell, kRequestKinds.size()> cells;
+};
+// Again for a mission that is flown already is for `is_flown_already` to tell.
+// clang-format off
+constexpr std::array kRows{
+    Row{kGrounded, false,
+        {go(kGrounded), already("disarmed"), refuse("not armed; send arm first"), kArmFirst, kOnTheGround,
+         kArmFirst, kArmFirst, kArmFirst,
+         kArmFirst, kArmFirst, kArmFirst}},
+    Row{kGrounded, true,
+        {kArmed, go(kGrounded), go(kTakeoff), kTakeoffFirst, kOnTheGround,
+         kTakeoffFirst, kTakeoffFirst, kTakeoffFirst,
+         kTakeoffFirst, kTakeoffFirst, kTakeoffFirst}},
+    Row{kTakeoff, true,
+        {kArmed, kInTheAir, already("taking off"), go(kHover), go(kLand),
+         go(kManual), go(kAssisted), kClimbing,
+         kClimbing, kClimbing, kClimbing}},
+    Row{kHover, true,
+        {kArmed, kInTheAir, kAirborne, already("hovering"), go(kLand),
+         go(kManual), go(kAssisted), go(kGps),
+         go(kNavigation), go(kExploration), go(kNavigation)}},
+    Row{kLand, true,
+        {kArmed, refuse("landing; it disarms by itself"), kLanding, go(kHover), already("landing"),
+         go(kManual), go(kAssisted), kLanding,
+         kLanding, kLanding, kLanding}},
+    Row{kManual, true,
+        {kArmed, kInTheAir, kAirborne, go(kHover), go(kLand),
+         already("flown by hand"), go(kAssisted), go(kGps),
+         go(kNavigation), go(kExploration), go(kNavigation)}},
+    Row{kAssisted, true,
+        {kArmed, kInTheAir, kAirborne, go(kHover), go(kLand),
+         go(kManual), already("flown by hand, assisted"), go(kGps),
+         go(kNavigation), go(kExploration), go(kNavigation)}},
+    Row{kGps, true,
+        {kArmed, kInTheAir, kAirborne, go(kHover), go(kLand),
+         go(kManual), go(kAssisted), go(kGps),
+         go(kNavigation), go(kExploration), go(kGps)}},
+    Row{kNavigation, true,
+        {kArmed, kInTheAir, kAirborne, go(kHover), go(kLand),
+         go(kManual), go(kAssisted), go(kGps),
+         go(kNavigation), go(kExploration), go(kNavigation)}},
+    Row{kExploration, true,
+        {kArmed, kInTheAir, kAirborne, go(kHover), go(kLand),
+         go(kManual), go(kAssisted), go(kGps),
+         go(kNavigation), already("exploring"), go(kNavigation)}},
+};
+// clang-format on
+
+constexpr std::array kFlown{kTakeoff, kHover, kManual, kAssisted, kGps, kNavigation, kExploration};
+
+std::vector<EventRule> all_events() {
+  std::vector<EventRule> rules{{Event::kLanded, kLand, kGrounded}};
+  for (const Event event : {Event::kEstimateLost, Event::kLandDemanded}) {
+    for (const Mode mode : kFlown) rules.push_back({event, mode, kLand});
+  }
+  for (const Mode mode : kFlown) {
+    // Who takes off is at home.
+    rules.push_back({Event::kReturnDemanded, mode,
+                     mode == kTakeoff ? kLand : (mode == kGps ? kGps : kNavigation)});
+  }
+  for (const Mode mode : kFlown) {
+    if (mode != kHover) rules.push_back({Event::kHoverDemanded, mode, kHover});
+  }
+  rules.push_back({Event::kTakeoffFailed, kTakeoff, kLand});
+  rules.push_back({Event::kReferenceFinished, kTakeoff, kHover});
+  for (const Event event : {Event::kReturnFailed, Event::kReturned}) {
+    for (const Mode mode : {kGps, kNavigation}) rules.push_back({event, mode, kLand});
+  }
+  for (const Event event : {Event::kNavigationFailed, Event::kNavigationFinished}) {
+    for (const Mode mode : {kGps, kNavigation, kExploration})
+      rules.push_back({event, mode, kHover});
+  }
+  for (const Mode mode : {kManual, kAssisted})
+    rules.push_back({Event::kSticksSilent, mode, kHover});
+  rules.push_back({Event::kObstaclesUnseen, kAssisted, kHover});
+  return rules;
+}
 
 std::string because(const char* what, const std::string& detail) {
   return detail.empty() ? std::string(what) : fmt::format("{}: {}", what, detail);
@@ -131,6 +155,12 @@ const char* to_string(Mode mode) {
       return "Hover";
     case Mode::kLand:
       return "Land";
+    case Mode::kManual:
+      return "Manual";
+    case Mode::kAssistedManual:
+      return "Assisted Manual";
+    case Mode::kGpsGuidance:
+      return "GPS Guidance";
     case Mode::kIndoorNavigation:
       return "Indoor Navigation";
     case Mode::kIndoorExploration:
@@ -151,28 +181,50 @@ const char* to_string(Kind kind) {
       return "hover";
     case Kind::kLand:
       return "land";
+    case Kind::kManual:
+      return "manual";
+    case Kind::kAssist:
+      return "assist";
+    case Kind::kGps:
+      return "gps";
     case Kind::kNavigate:
       return "navigate";
     case Kind::kExplore:
       return "explore";
+    case Kind::kReturn:
+      return "return";
   }
   return "unknown";
 }
 
 const char* to_string(Event event) {
   switch (event) {
-    case Event::kEstimateLost:
-      return "estimate lost";
     case Event::kLanded:
       return "landed";
+    case Event::kEstimateLost:
+      return "estimate lost";
+    case Event::kLandDemanded:
+      return "a policy demands to land";
+    case Event::kReturnDemanded:
+      return "a policy demands to return";
+    case Event::kHoverDemanded:
+      return "a policy demands to stop";
     case Event::kTakeoffFailed:
       return "still on the ground at the end of the climb";
     case Event::kReferenceFinished:
       return "altitude reached";
+    case Event::kReturnFailed:
+      return "no way home";
+    case Event::kReturned:
+      return "back home";
     case Event::kNavigationFailed:
       return "navigation failed";
     case Event::kNavigationFinished:
       return "mission finished";
+    case Event::kSticksSilent:
+      return "remote control silent";
+    case Event::kObstaclesUnseen:
+      return "obstacles unseen";
   }
   return "unknown";
 }
@@ -182,19 +234,23 @@ std::string describe(const Transition& transition) {
                      transition.reason);
 }
 
-const RequestRule& ModeMachine::rule(Mode mode, bool armed, Kind request) {
-  for (const RequestRule& rule : kRules) {
-    const bool same_row = rule.mode == mode && (rule.armed == armed || mode != kGrounded);
-    if (same_row && rule.request == request) return rule;
+RequestRule ModeMachine::rule(Mode mode, bool armed, Kind request) {
+  for (const Row& row : kRows) {
+    if (row.mode != mode || (mode == kGrounded && row.armed != armed)) continue;
+    for (std::size_t i = 0; i < kRequestKinds.size(); ++i) {
+      if (kRequestKinds[i] != request) continue;
+      const Cell& cell = row.cells[i];
+      return {mode,       row.armed, request, cell.answer, cell.answer == kGo ? cell.to : mode,
+              cell.reason};
+    }
   }
   // A value that is no enumerator: answered as on the ground, where nothing can go wrong.
-  static constexpr RequestRule kUnknown{kGrounded, false,     Kind::kArm,
-                                        kRefuse,   kGrounded, "unknown mode or request"};
-  return kUnknown;
+  return {mode, armed, request, kRefuse, kGrounded, "unknown mode or request"};
 }
 
-const std::array<EventRule, 11>& ModeMachine::event_rules() {
-  return kEvents;
+const std::vector<EventRule>& ModeMachine::event_rules() {
+  static const std::vector<EventRule> rules = all_events();
+  return rules;
 }
 
 ModeMachine::ModeMachine(const Params& params) : params_(params) {
@@ -227,9 +283,11 @@ std::optional<Error> ModeMachine::objection(const Request& request,
   if (request.kind == Kind::kHover && mode_ == kLand && situation.on_ground) {
     return object("on the ground already");
   }
-  const bool is_guided = request.kind == Kind::kNavigate || request.kind == Kind::kExplore;
-  if (is_guided && !request.mission_problem.empty()) {
-    return object(request.mission_problem);
+  if (!request.mission_problem.empty()) return object(request.mission_problem);
+  const bool by_hand = request.kind == Kind::kManual || request.kind == Kind::kAssist;
+  if (by_hand && !situation.sticks_problem.empty()) return object(situation.sticks_problem);
+  if (request.kind == Kind::kAssist && !situation.obstacles_problem.empty()) {
+    return object(situation.obstacles_problem);
   }
   if (needs_estimate && !situation.estimate_ok) {
     return object(because("no estimate", situation.estimate_problem));
@@ -251,18 +309,25 @@ Result<Acceptance> ModeMachine::request(const Request& request, const Situation&
     }
     return Acceptance::kUnchanged;
   }
-  if (mode_ == kNavigation && request.kind == Kind::kNavigate && request.mission == mission_) {
-    return Acceptance::kUnchanged;
-  }
+  if (is_flown_already(request)) return Acceptance::kUnchanged;
   if (const auto error = objection(request, situation)) return refuse(error->reason);
 
   if (request.kind == Kind::kArm) armed_ = true;
   if (request.kind == Kind::kDisarm) armed_ = false;
   if (request.kind == Kind::kTakeoff) takeoff_altitude_ = request.altitude;
-  if (request.kind == Kind::kNavigate) mission_ = request.mission;
+  if (request.kind == Kind::kNavigate || request.kind == Kind::kGps) mission_ = request.mission;
+  returning_ = request.kind == Kind::kReturn;
   mode_ = rule.to;
   blind_ = mode_ == kLand && !situation.estimate_ok;
   return Acceptance::kChanged;
+}
+
+/// The same mission again, or the way home again.
+bool ModeMachine::is_flown_already(const Request& request) const {
+  if (request.kind == Kind::kReturn) return returning_;
+  const bool same = request.mission == mission_ && !returning_;
+  return same && ((mode_ == kNavigation && request.kind == Kind::kNavigate) ||
+                  (mode_ == kGps && request.kind == Kind::kGps));
 }
 
 void ModeMachine::watch_ground(const Situation& situation) {
@@ -274,25 +339,43 @@ void ModeMachine::watch_ground(const Situation& situation) {
 }
 
 bool ModeMachine::holds(Event event, const Situation& situation) const {
+  using Demand = Situation::Demand;
   switch (event) {
-    case Event::kEstimateLost:
-      return !situation.estimate_ok;
     case Event::kLanded:
       return on_ground_since_ && to_seconds(situation.now) - to_seconds(*on_ground_since_) >=
                                      params_.landed_confirmation;
+    case Event::kEstimateLost:
+      return !situation.estimate_ok;
+    case Event::kLandDemanded:
+      return situation.demand == Demand::kLand;
+    case Event::kReturnDemanded:
+      return situation.demand == Demand::kReturn && !returning_;
+    case Event::kHoverDemanded:
+      return situation.demand == Demand::kHover;
     case Event::kTakeoffFailed:
       return situation.reference_finished && situation.on_ground;
     case Event::kReferenceFinished:
       return situation.reference_finished && !situation.on_ground;
+    case Event::kReturnFailed:
+      return returning_ && situation.navigation == Navigation::kFailed;
+    case Event::kReturned:
+      return returning_ && situation.navigation == Navigation::kFinished;
     case Event::kNavigationFailed:
       return situation.navigation == Navigation::kFailed;
     case Event::kNavigationFinished:
       return situation.navigation == Navigation::kFinished;
+    case Event::kSticksSilent:
+      return !situation.sticks_problem.empty();
+    case Event::kObstaclesUnseen:
+      return !situation.obstacles_problem.empty();
   }
   return false;
 }
 
 std::string ModeMachine::reason(Event event, const Situation& situation) const {
+  const auto either = [event](const std::string& known) {
+    return known.empty() ? to_string(event) : known;
+  };
   switch (event) {
     case Event::kEstimateLost:
       return because("estimate lost", situation.estimate_problem);
@@ -300,8 +383,18 @@ std::string ModeMachine::reason(Event event, const Situation& situation) const {
       return fmt::format("{:.2f} m reached", situation.height);
     case Event::kTakeoffFailed:
       return because(to_string(event), situation.motors_problem);
+    case Event::kLandDemanded:
+    case Event::kReturnDemanded:
+    case Event::kHoverDemanded:
+      return either(situation.demand_reason);
+    case Event::kReturnFailed:
+      return because(to_string(event), situation.navigation_problem);
     case Event::kNavigationFailed:
-      return situation.navigation_problem.empty() ? to_string(event) : situation.navigation_problem;
+      return either(situation.navigation_problem);
+    case Event::kSticksSilent:
+      return either(situation.sticks_problem);
+    case Event::kObstaclesUnseen:
+      return either(situation.obstacles_problem);
     default:
       return to_string(event);
   }
@@ -309,9 +402,10 @@ std::string ModeMachine::reason(Event event, const Situation& situation) const {
 
 std::optional<Transition> ModeMachine::update(const Situation& situation) {
   watch_ground(situation);
-  for (const EventRule& rule : kEvents) {
+  for (const EventRule& rule : event_rules()) {
     if (rule.from != mode_ || !holds(rule.event, situation)) continue;
     mode_ = rule.to;
+    returning_ = rule.event == Event::kReturnDemanded && mode_ != kLand;
     if (mode_ == kGrounded) armed_ = false;
     blind_ = mode_ == kLand && !situation.estimate_ok;
     return Transition{rule.from, rule.to, reason(rule.event, situation)};
@@ -326,6 +420,7 @@ void ModeMachine::restore(const State& state) {
   blind_ = state.blind;
   takeoff_altitude_ = state.takeoff_altitude;
   mission_ = state.mission;
+  returning_ = state.returning;
   on_ground_since_.reset();
 }
 

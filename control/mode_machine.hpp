@@ -7,47 +7,84 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "estimation/basics/result.hpp"
 #include "estimation/basics/time.hpp"
 
 namespace swiftlet {
 
-enum class Mode { kGrounded, kTakeoff, kHover, kLand, kIndoorNavigation, kIndoorExploration };
+enum class Mode {
+  kGrounded,
+  kTakeoff,
+  kHover,
+  kLand,
+  kManual,
+  kAssistedManual,
+  kGpsGuidance,
+  kIndoorNavigation,
+  kIndoorExploration
+};
 inline constexpr std::array kModes{
-    Mode::kGrounded, Mode::kTakeoff,          Mode::kHover,
-    Mode::kLand,     Mode::kIndoorNavigation, Mode::kIndoorExploration};
+    Mode::kGrounded,    Mode::kTakeoff,          Mode::kHover,
+    Mode::kLand,        Mode::kManual,           Mode::kAssistedManual,
+    Mode::kGpsGuidance, Mode::kIndoorNavigation, Mode::kIndoorExploration};
 /// As a pilot reads it: "Indoor Navigation".
 const char* to_string(Mode mode);
 
 /// What a pilot or the commander asks for.
 struct Request {
-  enum class Kind { kArm, kDisarm, kTakeoff, kHover, kLand, kNavigate, kExplore };
+  enum class Kind {
+    kArm,
+    kDisarm,
+    kTakeoff,
+    kHover,
+    kLand,
+    kManual,
+    kAssist,
+    kGps,
+    kNavigate,
+    kExplore,
+    kReturn
+  };
   Kind kind = Kind::kHover;
   double altitude = 0.0;        ///< takeoff: above the take-off point [m]
-  std::uint64_t mission = 0;    ///< navigate: identity of the mission, its checksum
-  std::string mission_problem;  ///< navigate, explore: why it cannot be flown; empty if it can
+  std::uint64_t mission = 0;    ///< gps, navigate: identity of the mission, its checksum
+  std::string mission_problem;  ///< gps to return: why it cannot be flown; empty if it can
 
   static Request arm() { return {Kind::kArm, 0.0, 0, {}}; }
   static Request disarm() { return {Kind::kDisarm, 0.0, 0, {}}; }
   static Request takeoff(double altitude) { return {Kind::kTakeoff, altitude, 0, {}}; }
   static Request hover() { return {Kind::kHover, 0.0, 0, {}}; }
   static Request land() { return {Kind::kLand, 0.0, 0, {}}; }
+  static Request manual() { return {Kind::kManual, 0.0, 0, {}}; }
+  static Request assist() { return {Kind::kAssist, 0.0, 0, {}}; }
+  static Request gps(std::uint64_t mission, std::string problem = {}) {
+    return {Kind::kGps, 0.0, mission, std::move(problem)};
+  }
   static Request navigate(std::uint64_t mission, std::string problem = {}) {
     return {Kind::kNavigate, 0.0, mission, std::move(problem)};
   }
   static Request explore(std::string problem = {}) {
     return {Kind::kExplore, 0.0, 0, std::move(problem)};
   }
+  static Request go_back(std::string problem = {}) {
+    return {Kind::kReturn, 0.0, 0, std::move(problem)};
+  }
 };
 inline constexpr std::array kRequestKinds{
-    Request::Kind::kArm,  Request::Kind::kDisarm,   Request::Kind::kTakeoff, Request::Kind::kHover,
-    Request::Kind::kLand, Request::Kind::kNavigate, Request::Kind::kExplore};
+    Request::Kind::kArm,     Request::Kind::kDisarm, Request::Kind::kTakeoff,
+    Request::Kind::kHover,   Request::Kind::kLand,   Request::Kind::kManual,
+    Request::Kind::kAssist,  Request::Kind::kGps,    Request::Kind::kNavigate,
+    Request::Kind::kExplore, Request::Kind::kReturn};
 const char* to_string(Request::Kind kind);
 
 /// What the machine must know at each tick.
 struct Situation {
   enum class Navigation { kInactive, kActive, kFinished, kFailed };
+  /// What a policy asks for, from mild to strong. Each is asked for once, so that a pilot may go
+  /// on.
+  enum class Demand { kNone, kHover, kReturn, kLand };
   Time now{};
   bool ready = false;            ///< every check before arming holds
   std::string not_ready_reason;  ///< the culprit, where it does not
@@ -57,6 +94,10 @@ struct Situation {
   double height = 0.0;              ///< above the take-off point [m]
   bool reference_finished = false;  ///< the vertical move of Takeoff has ended
   std::string motors_problem;       ///< why it may have failed; "" where that is not known
+  std::string sticks_problem;       ///< why nobody can steer; "" where somebody can
+  std::string obstacles_problem;    ///< why nothing is seen around; "" where it is
+  Demand demand = Demand::kNone;
+  std::string demand_reason;
   Navigation navigation = Navigation::kInactive;
   std::string navigation_problem;  ///< why it failed
 };
@@ -90,12 +131,19 @@ struct RequestRule {
 /// What happens by itself, in order of precedence.
 struct EventRule {
   enum class Event {
-    kEstimateLost,
     kLanded,
+    kEstimateLost,
+    kLandDemanded,
+    kReturnDemanded,
+    kHoverDemanded,
     kTakeoffFailed,
     kReferenceFinished,
+    kReturnFailed,
+    kReturned,
     kNavigationFailed,
-    kNavigationFinished
+    kNavigationFinished,
+    kSticksSilent,
+    kObstaclesUnseen
   };
   Event event;
   Mode from;
@@ -106,8 +154,8 @@ const char* to_string(EventRule::Event event);
 /// The flight modes: pure, driven by requests and by one `update` a tick.
 ///
 /// Requests are idempotent: asked again for what is so already, the machine accepts and restarts
-/// nothing. In flight it always has a safe way down: navigation that fails becomes Hover, an
-/// estimate that is lost becomes Land.
+/// nothing. In flight it always has a safe way down: navigation that fails becomes Hover, or Land
+/// where it was the way home; an estimate that is lost becomes Land.
 class ModeMachine {
  public:
   struct Params {
@@ -134,26 +182,30 @@ class ModeMachine {
     bool blind = false;             ///< Land without an estimate
     double takeoff_altitude = 0.0;  ///< [m]
     std::uint64_t mission = 0;
+    bool returning = false;  ///< home, to land there
   };
-  State state() const { return {mode_, armed_, blind_, takeoff_altitude_, mission_}; }
+  State state() const { return {mode_, armed_, blind_, takeoff_altitude_, mission_, returning_}; }
   void restore(const State& state);
 
   Mode mode() const { return mode_; }
   bool armed() const { return armed_; }
   /// Altitude of the take-off that was accepted last [m].
   double takeoff_altitude() const { return takeoff_altitude_; }
-  /// Mission that Indoor Navigation flies.
+  /// Mission that Indoor Navigation or GPS Guidance flies.
   std::uint64_t mission() const { return mission_; }
+  /// Whether that is the way home.
+  bool returning() const { return returning_; }
   /// Land while the estimate is lost: level the vehicle and let it sink (Se3Controller::level).
   /// Should the estimate come back, so does the landing with position control.
   bool level_descent() const { return mode_ == Mode::kLand && blind_; }
 
   /// The tables, for documentation and tests.
-  static const RequestRule& rule(Mode mode, bool armed, Request::Kind request);
-  static const std::array<EventRule, 11>& event_rules();
+  static RequestRule rule(Mode mode, bool armed, Request::Kind request);
+  static const std::vector<EventRule>& event_rules();
 
  private:
   std::optional<Error> objection(const Request& request, const Situation& situation) const;
+  bool is_flown_already(const Request& request) const;
   bool holds(EventRule::Event event, const Situation& situation) const;
   std::string reason(EventRule::Event event, const Situation& situation) const;
   void watch_ground(const Situation& situation);
@@ -164,6 +216,7 @@ class ModeMachine {
   bool blind_ = false;
   double takeoff_altitude_ = 0.0;
   std::uint64_t mission_ = 0;
+  bool returning_ = false;
   std::optional<Time> on_ground_since_;
 };
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "components/commander/mission_message.hpp"
 #include "components/conversions.hpp"
 
 namespace swiftlet {
@@ -40,7 +39,8 @@ CommandClient::CommandClient(const ComponentContext& context, const GroundComman
 
 void CommandClient::advance(Time now) {
   if (now - begin_ > kTimeout) {
-    const int readers = command_.go_to ? waypoints_.matched_readers() : mode_.matched_readers();
+    const int readers =
+        command_.is_mission() ? waypoints_.matched_readers() : mode_.matched_readers();
     if (readers == 0) {
       finish(false, fmt::format(
                         "{}: no vehicle answers in domain {}; is a commander running there, and is "
@@ -59,13 +59,17 @@ void CommandClient::advance(Time now) {
 }
 
 void CommandClient::send(Time now) {
-  if (command_.go_to) {
+  if (command_.go_to_global) {
+    if (waypoints_.matched_readers() == 0) return;
+    waypoints_.publish(make_mission(now, id_, {*command_.go_to_global}));
+  } else if (command_.go_to) {
     if (waypoints_.matched_readers() == 0) return;
     const auto& place = *command_.go_to;
     if (!place.z && !height_) return;
     // The height at the first sending, so that each repetition is the same mission.
     if (!place.z) command_.go_to->z = height_;
-    waypoints_.publish(make_mission(now, id_, {{{place.x, place.y, *command_.go_to->z}, {}}}));
+    waypoints_.publish(make_mission(
+        now, id_, {MissionWaypoint{{place.x, place.y, *command_.go_to->z}, std::nullopt}}));
   } else {
     if (mode_.matched_readers() == 0) return;
     swiftlet_msgs::msg::ModeCommand message;

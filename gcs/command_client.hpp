@@ -5,11 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "components/commander/mission_message.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {
 
-/// What a person asks of the vehicle: a mode command, or a place to fly to.
+/// What a person asks of the vehicle: a mode command, or a place in the map or on Earth to fly to.
 struct GroundCommand {
   std::string name;          ///< as it was typed
   std::uint8_t command = 0;  ///< of ModeCommand, where it is no `go_to`
@@ -20,6 +21,8 @@ struct GroundCommand {
     std::optional<double> z;  ///< [m]; without, the height that the vehicle has
   };
   std::optional<Place> go_to;
+  std::optional<GlobalWaypoint> go_to_global;
+  bool is_mission() const { return go_to || go_to_global; }
 };
 
 /// How it ended, in a sentence.

@@ -5,13 +5,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "components/runtime/command_line.hpp"
 #include "gcs/command_client.hpp"
 #include "gcs/status_view.hpp"
+#include "gcs/stick_client.hpp"
 
 namespace swiftlet {
 namespace {
@@ -68,6 +72,64 @@ void add_simple(CLI::App& gcs, const Network& network, const char* name, const c
   });
 }
 
+void add_gps(CLI::App& gcs, const Network& network) {
+  const auto place = std::make_shared<GlobalWaypoint>();
+  CLI::App* verb = gcs.add_subcommand("gps", "Climb, and fly a straight line to a place on Earth");
+  verb->add_option("latitude", place->latitude, "WGS84 [deg]")->required()->check(finite);
+  verb->add_option("longitude", place->longitude, "WGS84 [deg]")->required()->check(finite);
+  verb->add_option("--altitude", place->altitude,
+                   "Above the take-off point [m]; else that of the commander's gps_altitude")
+      ->check(CLI::PositiveNumber)
+      ->check(finite);
+  network->add_to(*verb);
+  verb->callback([network, place] {
+    GroundCommand ground_command;
+    ground_command.name = "gps";
+    ground_command.go_to_global = *place;
+    send(*network, ground_command);
+  });
+}
+
+void add_stick(CLI::App& gcs, const Network& network) {
+  const auto held = std::make_shared<StickClient::Held>();
+  CLI::App* verb = gcs.add_subcommand(
+      "stick",
+      "A remote control. With keys: w s forward and back, a d left and right, i k up and down, j l "
+      "turn, m Manual or Assisted Manual, space lets go, Ctrl-C ends. Without keys: sticks that "
+      "are "
+      "held for some seconds");
+  std::vector<CLI::Option*> sticks;
+  const auto add = [&](const char* name, double& value, const char* what) {
+    sticks.push_back(verb->add_option(name, value, what)->check(CLI::Range(-1.0, 1.0)));
+  };
+  add("--forward", held->sticks.forward, "-1 to 1");
+  add("--left", held->sticks.left, "-1 to 1");
+  add("--up", held->sticks.up, "-1 to 1");
+  add("--turn", held->sticks.turn, "-1 to 1, counter-clockwise");
+  sticks.push_back(verb->add_option("--for", held->duration_s, "Hold them for so long [s]")
+                       ->check(CLI::Range(0.05, 3600.0)));
+  verb->add_flag("--assisted", held->sticks.assisted,
+                 "Take over into Assisted Manual rather than Manual");
+  network->add_to(*verb);
+  verb->callback([network, held, sticks] {
+    const bool is_held =
+        std::any_of(sticks.begin(), sticks.end(), [](auto* option) { return option->count() > 0; });
+    Terminal terminal;
+    if (!is_held && !terminal.has_keys()) {
+      fmt::print(
+          stderr,
+          "stick: there is no terminal to read keys from; say what to hold: --forward, --left, "
+          "--up, --turn, --for\n");
+      throw CLI::RuntimeError(2);
+    }
+    Host host(network->host_options("gcs"));
+    host.emplace<Heartbeat>("heartbeat");
+    host.emplace<StickClient>("gcs", *held, !is_held, terminal);
+    const int code = host.run();
+    if (code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
 }  // namespace
 
 void add_gcs_commands(CLI::App& gcs) {
@@ -80,6 +142,14 @@ void add_gcs_commands(CLI::App& gcs) {
 
   add_simple(gcs, network, "explore", "Look at all that can be reached, and come back",
              command::EXPLORE);
+
+  add_simple(gcs, network, "manual", "Fly with the sticks: swiftlet gcs stick, or a remote control",
+             command::MANUAL);
+  add_simple(gcs, network, "assist", "The same, and stop at obstacles", command::ASSIST);
+  add_simple(gcs, network, "return", "Fly back to the take-off point, and land there",
+             command::RETURN);
+  add_gps(gcs, network);
+  add_stick(gcs, network);
 
   auto altitude = std::make_shared<double>(kDefaultAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
@@ -118,6 +188,7 @@ void add_gcs_commands(CLI::App& gcs) {
   network->add_to(*watch);
   watch->callback([network] {
     Host host(network->host_options("gcs"));
+    host.emplace<Heartbeat>("heartbeat");
     host.emplace<StatusClient>("gcs", true);
     host.run();
   });

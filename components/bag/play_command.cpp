@@ -11,7 +11,7 @@
 #include "components/bag/between.hpp"
 #include "components/bag/live_commands.hpp"
 #include "components/bag/player.hpp"
-#include "components/bag/terminal.hpp"
+#include "components/terminal/terminal.hpp"
 #include "components/runtime/command_line.hpp"
 #include "components/runtime/names.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "components/bag/live_commands.hpp"
 #include "components/bag/recorder.hpp"
-#include "components/bag/terminal.hpp"
+#include "components/terminal/terminal.hpp"
 #include "components/bag/units.hpp"
 #include "components/runtime/command_line.hpp"
 

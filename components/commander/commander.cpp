@@ -6,14 +6,18 @@
 #include <deque>
 
 #include "components/commander/attendance.hpp"
+#include "components/commander/director_params.hpp"
 #include "components/commander/mission_message.hpp"
 #include "components/commander/request_message.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
 #include "components/planner/trajectory_message.hpp"
+#include "components/setpoint_message.hpp"
+#include "components/surroundings/surroundings.hpp"
 #include "components/topics.hpp"
 #include "control/flight_director.hpp"
+#include "estimation/geodesy/local_origin.hpp"
 #include "estimation/geometry/so3.hpp"
 
 namespace swiftlet {
@@ -24,27 +28,14 @@ using namespace std::chrono_literals;
 constexpr Duration kTick = 10ms;
 constexpr int kGoalEvery = 10;    // ticks
 constexpr int kStatusEvery = 10;  // ticks
+/// What a person steers is told to a standby that often [ticks].
+constexpr int kSteeredEvery = 10;
+/// Of a satellite fix that does not say how good it is [m].
+constexpr double kUnknownFixSigma = 5.0;
 /// Commands that were answered, kept so that one that comes again is not carried out again.
 constexpr std::size_t kRememberedCommands = 64;
 /// Missions are flown by what these do.
 constexpr std::array kGuides{"flight_controller", "planner", "lidar_mapper"};
-
-FlightDirector::Params read_params(const Config& config) {
-  FlightDirector::Params params;
-  config.read("min_altitude", params.modes.min_altitude, kPositive);
-  config.read("max_altitude", params.modes.max_altitude, kPositive);
-  config.read("takeoff_speed", params.takeoff.velocity, kPositive);
-  config.read("landing_speed", params.landing.velocity, kPositive);
-  config.read("braking_acceleration", params.braking.acceleration, kPositive);
-  config.read("arrival_distance", params.arrival_distance, kPositive);
-  config.read("plan_timeout", params.plan_timeout, kPositive);
-  config.read("exploration_timeout", params.exploration_timeout, kPositive);
-  config.read("estimate_sigma_max", params.estimate_sigma_max, kPositive);
-  config.read("heading_sigma_to_arm", params.heading_sigma_to_arm, kPositive);
-  config.read("settling_to_arm", params.settling_to_arm, {0.0, 3600.0});
-  config.read("min_battery_percentage", params.min_battery_percentage, {0.0, 1.0});
-  return params;
-}
 
 ExplorationOrder order_of(const swiftlet_msgs::msg::Exploration& message) {
   using namespace swiftlet_msgs::msg::Exploration_Constants;
@@ -56,18 +47,12 @@ ExplorationOrder order_of(const swiftlet_msgs::msg::Exploration& message) {
   return order;
 }
 
-std::uint8_t to_msg(SetpointKind kind) {
-  using namespace swiftlet_msgs::msg::Setpoint_Constants;
-  if (kind == SetpointKind::kTrack) return TRACK;
-  return kind == SetpointKind::kLevel ? LEVEL : MOTORS_OFF;
-}
-
 /// Who decides what is flown: commands in, setpoints out. A standby hears the same, decides
 /// nothing, and keeps the state of the one that does.
 class Commander : public Component {
  public:
   explicit Commander(const ComponentContext& context)
-      : Component(context), director_(read_params(parameters())) {
+      : Component(context), params_(read_director_params(parameters())), director_(params_) {
     setpoint_ = advertise(topic::setpoint);
     goal_ = advertise(topic::goal);
     status_ = advertise(topic::vehicle_status);
@@ -78,7 +63,27 @@ class Commander : public Component {
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
       director_.set_estimate(from_msg(odometry.header().stamp()), from_msg(odometry),
                              std::sqrt(variance), std::sqrt(covariance[35]));
+      position_ = from_msg(odometry).p_WB;
+      surroundings_.hear(odometry);
+      look_around();
     });
+    subscribe(
+        topic::tf_static,
+        [this](const tf2_msgs::msg::TFMessage& mounts) { surroundings_.hear(mounts); },
+        Need::kOptional);
+    subscribe(
+        topic::scan,
+        [this](const sensor_msgs::msg::LaserScan& scan) {
+          surroundings_.hear(scan);
+          look_around();
+        },
+        Need::kOptional);
+    subscribe(
+        topic::manual_control,
+        [this](const swiftlet_msgs::msg::ManualControl& sticks) {
+          director_.set_sticks(sticks_of(sticks), now());
+        },
+        Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       director_.set_range_down(range.range());
     });
@@ -129,12 +134,37 @@ class Commander : public Component {
                   attendance_.heard_alive(sign, now());
                 });
     }
+    subscribe(
+        topic::guard_status,
+        [this](const swiftlet_msgs::msg::GuardStatus& guard) {
+          director_.set_guard(guard.acting(), guard.reason(), now());
+        },
+        Need::kOptional);
+    subscribe(
+        topic::gcs_heartbeat,
+        [this](const swiftlet_msgs::msg::ComponentStatus& station) {
+          if (station.active()) {
+            director_.set_link_heard(now());
+          } else {
+            director_.set_link_left();
+          }
+        },
+        Need::kOptional);
+    subscribe(
+        topic::gps_fix, [this](const sensor_msgs::msg::NavSatFix& fix) { hear(fix); },
+        Need::kOptional);
     every(kTick, [this](Time now) {
       if (active()) tick(now);
     });
   }
 
  private:
+  void look_around() {
+    if (auto seen = surroundings_.take()) {
+      director_.set_obstacles(std::move(seen->obstacles), seen->time);
+    }
+  }
+
   Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
     const std::optional<Request> request = request_of(command);
     if (!request) return Error{fmt::format("there is no command {}", command.command())};
@@ -145,9 +175,33 @@ class Commander : public Component {
     if (mission.checksum() != checksum(mission)) {
       return Error{"the mission's checksum is wrong: it was damaged on the way; send it again"};
     }
-    Result<Acceptance> result = director_.fly(mission.checksum(), waypoints_of(mission), now());
+    Result<Acceptance> result =
+        is_global(mission) ? fly_globally(mission)
+                           : director_.fly(mission.checksum(), waypoints_of(mission), now());
     if (result.ok()) mission_id_ = mission.id();
     return result;
+  }
+
+  Result<Acceptance> fly_globally(const swiftlet_msgs::msg::Mission& mission) {
+    const std::optional<LocalOrigin> origin = origin_.origin();
+    if (!origin) {
+      return Error{"gps refused: nobody says where on Earth the map is; is there a GPS fix?"};
+    }
+    auto waypoints = global_waypoints_of(mission, *origin, params_.gps_altitude,
+                                         director_.status(now()).home.z());
+    if (!waypoints.ok()) return waypoints.error();
+    return director_.fly_straight(mission.checksum(), *waypoints, now());
+  }
+
+  /// Learns where the map is on Earth.
+  void hear(const sensor_msgs::msg::NavSatFix& fix) {
+    using namespace sensor_msgs::msg;
+    if (fix.status().status() == NavSatStatus_Constants::STATUS_NO_FIX || !position_) return;
+    const bool says =
+        fix.position_covariance_type() != NavSatFix_Constants::COVARIANCE_TYPE_UNKNOWN;
+    const double variance = std::max(fix.position_covariance()[0], fix.position_covariance()[4]);
+    origin_.add({fix.latitude(), fix.longitude(), fix.altitude()},
+                says ? std::sqrt(variance) : kUnknownFixSigma, *position_);
   }
 
   /// A mission of one waypoint. Who sends it hears no acknowledgement: a refusal is in the status.
@@ -211,7 +265,8 @@ class Commander : public Component {
       publish_goal(*directive.goal);
     }
     if (directive.transition) log()->info("{}", describe(*directive.transition));
-    if (differs(director_.state(), shared_)) publish_state(now);
+    const bool steered = director_.is_steered() && ticks_ % kSteeredEvery == 0;
+    if (steered || differs(director_.state(), shared_)) publish_state(now);
     if (directive.transition || ticks_ % kStatusEvery == 0) publish_status(now);
   }
 
@@ -273,10 +328,14 @@ class Commander : public Component {
     status_.publish(message);
   }
 
+  FlightDirector::Params params_;
   FlightDirector director_;
   FlightDirector::State shared_;  // as the standby knows it
   bool restored_ = false;
   PlanAnswer last_plan_;
+  Surroundings surroundings_;
+  OriginEstimate origin_;
+  std::optional<Eigen::Vector3d> position_;  // in the map
   Attendance attendance_;
   std::string mission_id_;
   std::deque<swiftlet_msgs::msg::CommandAck> answered_;

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/commander/mission_message.hpp"
 
+#include <fmt/format.h>
 #include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "components/conversions.hpp"
 
@@ -41,6 +45,52 @@ std::vector<MissionWaypoint> waypoints_of(const swiftlet_msgs::msg::Mission& mis
     MissionWaypoint waypoint;
     waypoint.position = from_msg(item.position());
     if (item.has_yaw()) waypoint.yaw = item.yaw();
+    waypoints.push_back(waypoint);
+  }
+  return waypoints;
+}
+
+swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
+                                         const std::vector<GlobalWaypoint>& waypoints) {
+  swiftlet_msgs::msg::Mission mission;
+  mission.header(make_header(time, "map"));
+  mission.id(id);
+  for (const GlobalWaypoint& waypoint : waypoints) {
+    swiftlet_msgs::msg::Waypoint item;
+    item.is_global(true);
+    item.latitude(waypoint.latitude);
+    item.longitude(waypoint.longitude);
+    item.altitude(waypoint.altitude);
+    mission.waypoints().push_back(item);
+  }
+  mission.checksum(checksum(mission));
+  return mission;
+}
+
+bool is_global(const swiftlet_msgs::msg::Mission& mission) {
+  return std::any_of(mission.waypoints().begin(), mission.waypoints().end(),
+                     [](const auto& item) { return item.is_global(); });
+}
+
+Result<std::vector<MissionWaypoint>> global_waypoints_of(const swiftlet_msgs::msg::Mission& mission,
+                                                         const LocalOrigin& origin,
+                                                         double usual_altitude, double home_z) {
+  std::vector<MissionWaypoint> waypoints;
+  for (const auto& item : mission.waypoints()) {
+    const std::size_t number = waypoints.size() + 1;
+    const GlobalPosition place{item.latitude(), item.longitude(), origin.position().altitude};
+    if (!item.is_global()) {
+      return Error{fmt::format(
+          "gps refused: waypoint {} is in the map, others are on Earth; send two missions",
+          number)};
+    }
+    if (!place.usable() || !(item.altitude() >= 0.0 && std::isfinite(item.altitude()))) {
+      return Error{fmt::format("gps refused: waypoint {} is no place on Earth", number)};
+    }
+    const double altitude = item.altitude() > 0.0 ? item.altitude() : usual_altitude;
+    MissionWaypoint waypoint;
+    waypoint.position = origin.to_map(place);
+    waypoint.position.z() = home_z + altitude;
     waypoints.push_back(waypoint);
   }
   return waypoints;

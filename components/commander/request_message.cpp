@@ -34,9 +34,19 @@ std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command
       return Request::land();
     case EXPLORE:
       return Request::explore();
+    case MANUAL:
+      return Request::manual();
+    case ASSIST:
+      return Request::assist();
+    case RETURN:
+      return Request::go_back();
     default:
       return std::nullopt;
   }
+}
+
+Sticks sticks_of(const swiftlet_msgs::msg::ManualControl& message) {
+  return {message.forward(), message.left(), message.up(), message.turn(), message.assisted()};
 }
 
 Result<MissionWaypoint> waypoint_of(const geometry_msgs::msg::PoseStamped& goal, double altitude) {

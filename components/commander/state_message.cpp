@@ -18,7 +18,10 @@ using Navigation = Situation::Navigation;
 /// What changes when anything that is decided changes.
 auto key(const FlightDirector::State& s) {
   const auto& m = s.machine;
-  return std::make_tuple(m.mode, m.armed, m.blind, m.takeoff_altitude, m.mission, s.simple.start(),
+  // By hand, what is flown is made anew each tick; the commander tells it at its own pace.
+  const bool by_hand = m.mode == Mode::kManual || m.mode == Mode::kAssistedManual;
+  return std::make_tuple(m.mode, m.armed, m.blind, m.takeoff_altitude, m.mission, m.returning,
+                         s.demanded, by_hand ? Time{} : s.simple.start(),
                          s.active ? s.active->start() : Time{}, s.coming.size(),
                          s.coming.empty() ? Time{} : s.coming.back().start(), s.blind, s.waypoint,
                          s.goal ? s.goal->identity : Time{}, s.waiting_since, s.refusal,
@@ -67,6 +70,8 @@ swiftlet_msgs::msg::CommanderState to_msg(const FlightDirector::State& state) {
   message.refusal(state.refusal);
   message.mission_done(state.mission_done);
   message.cruise_altitude(state.cruise_altitude);
+  message.returning(state.machine.returning);
+  message.demanded(state.demanded);
   message.navigation(to_msg(state.navigation));
   message.navigation_problem(state.navigation_problem);
   message.reason(state.last_reason);
@@ -99,6 +104,8 @@ FlightDirector::State from_msg(const swiftlet_msgs::msg::CommanderState& message
   state.refusal = message.refusal();
   state.mission_done = message.mission_done();
   state.cruise_altitude = message.cruise_altitude();
+  state.machine.returning = message.returning();
+  state.demanded = message.demanded();
   state.navigation = navigation_of(message.navigation());
   state.navigation_problem = message.navigation_problem();
   state.last_reason = message.reason();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "components/conversions.hpp"
+#include "components/setpoint_message.hpp"
 #include "components/topics.hpp"
 #include "components/vehicle_model.hpp"
 #include "control/flight_loop.hpp"
@@ -72,8 +73,16 @@ class FlightController : public Component {
     subscribe(topic::setpoint, [this](const swiftlet_msgs::msg::Setpoint& setpoint) {
       const Time stamp = from_msg(setpoint.header().stamp());
       setpoint_offset_ = strange_offset(stamp, params_.loop.setpoint_timeout);
-      loop_.set_setpoint({stamp, kind_of(setpoint.kind()), reference_of(setpoint)});
+      if (!guard_flies()) follow(setpoint);
     });
+    // While the guard says what to fly, the commander is not heard.
+    subscribe(
+        topic::guard_setpoint,
+        [this](const swiftlet_msgs::msg::Setpoint& setpoint) {
+          guard_heard_ = now();
+          follow(setpoint);
+        },
+        Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       loop_.set_range_down(range.range());
     });
@@ -83,10 +92,15 @@ class FlightController : public Component {
   }
 
  private:
-  static SetpointKind kind_of(std::uint8_t kind) {
-    using namespace swiftlet_msgs::msg::Setpoint_Constants;
-    if (kind == TRACK) return SetpointKind::kTrack;
-    return kind == LEVEL ? SetpointKind::kLevel : SetpointKind::kMotorsOff;
+  /// It speaks as often as the commander, and when it ends, he is to be heard before he counts as
+  /// silent.
+  bool guard_flies() const {
+    return guard_heard_ && to_seconds(now() - *guard_heard_) <= 0.5 * params_.loop.setpoint_timeout;
+  }
+
+  void follow(const swiftlet_msgs::msg::Setpoint& setpoint) {
+    loop_.set_setpoint({from_msg(setpoint.header().stamp()), setpoint_kind_of(setpoint.kind()),
+                        reference_of(setpoint)});
   }
 
   /// By how much a stamp is off the IMU's clock [s], where that is too much for it to be flown.
@@ -133,6 +147,7 @@ class FlightController : public Component {
   FlightLoop loop_;
   std::int64_t samples_ = 0;
   std::optional<Time> imu_time_;
+  std::optional<Time> guard_heard_;
   std::optional<double> setpoint_offset_;  // of the last, where it is strange
   std::optional<double> odometry_offset_;
   bool refusal_told_ = false;

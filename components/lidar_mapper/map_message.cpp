@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "components/conversions.hpp"
-#include "components/lidar_mapper/scan_message.hpp"
+#include "components/surroundings/scan_message.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {

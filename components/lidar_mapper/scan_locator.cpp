@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "components/conversions.hpp"
-#include "components/lidar_mapper/scan_message.hpp"
+#include "components/surroundings/scan_message.hpp"
+#include "components/surroundings/scan_motion.hpp"
 #include "components/topics.hpp"
 #include "estimation/geometry/so3.hpp"
 
@@ -15,20 +16,11 @@ namespace {
 
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-constexpr double kLongestTurn = 1.0;  // of a scanner that is to be believed [s]
 /// Variance of what a planar scanner does not see: height [m^2], roll and pitch [rad^2].
 constexpr double kUnseen = 1e6;
 
 Time stamp(const sensor_msgs::msg::LaserScan& scan) {
   return from_msg(scan.header().stamp());
-}
-
-/// What is left of an attitude without its yaw.
-Eigen::Quaterniond levelled(const Eigen::Quaterniond& q) {
-  return from_yaw(-yaw_of(q)) * q;
-}
-Pose2 planar(const PoseHistory::Pose& pose) {
-  return {pose.position.head<2>(), yaw_of(pose.attitude)};
 }
 
 RowMajor6d covariance_of(const Eigen::Matrix3d& planar_covariance) {
@@ -54,7 +46,10 @@ geometry_msgs::msg::PoseWithCovarianceStamped ScanLocator::locate(
   if (body) {
     const PoseHistory::Pose scanner = scanner_on(*body, mount);
     moved = planar(scanner);
-    motion_ = motion_during(message, scanner, odometry, mount);
+    motion_ =
+        scanner_motion(message, scanner, odometry, mount, from_seconds(params_.max_odometry_gap));
+    motion_.min_height = params_.grid.min_height;
+    motion_.max_height = params_.grid.max_height;
   } else if (odometry.empty()) {
     motion_.height = 0.5 * (params_.grid.min_height + params_.grid.max_height);
   }
@@ -68,30 +63,6 @@ geometry_msgs::msg::PoseWithCovarianceStamped ScanLocator::locate(
   pose.pose().pose(to_pose(at.position, at.attitude));
   Eigen::Map<RowMajor6d>(pose.pose().covariance().data()) = covariance_of(update.covariance);
   return pose;
-}
-
-/// How the scanner was held, and how it moved until the scan was over, by odometry.
-ScannerMotion ScanLocator::motion_during(const sensor_msgs::msg::LaserScan& message,
-                                         const PoseHistory::Pose& scanner,
-                                         const PoseHistory& odometry,
-                                         const StaticTransforms::Pose& mount) const {
-  ScannerMotion motion;
-  motion.q_HL = levelled(scanner.attitude);
-  motion.height = scanner.position.z();
-  motion.min_height = params_.grid.min_height;
-  motion.max_height = params_.grid.max_height;
-  const double seconds =
-      static_cast<double>(message.time_increment()) * static_cast<double>(message.ranges().size());
-  if (!(seconds > 0.0 && seconds < kLongestTurn)) return motion;
-  // What odometry has by now may end before the scan does.
-  const Time end = std::min(odometry.newest(), stamp(message) + from_seconds(seconds));
-  const auto body = odometry.at(end, from_seconds(params_.max_odometry_gap));
-  const double passed = to_seconds(end - stamp(message));
-  if (!body || !(passed > 0.0)) return motion;
-  const Pose2 moved = planar(scanner).inverse() * planar(scanner_on(*body, mount));
-  motion.velocity = moved.position / passed;
-  motion.yaw_rate = moved.yaw / passed;
-  return motion;
 }
 
 /// Of the body, when the scanner's levelled frame is at `pose`.

@@ -14,12 +14,6 @@
 
 namespace swiftlet {
 
-/// Where a scanner is that sits `mount` on a body.
-inline PoseHistory::Pose scanner_on(const PoseHistory::Pose& body,
-                                    const StaticTransforms::Pose& mount) {
-  return {body.position + body.attitude * mount.position, body.attitude * mount.attitude};
-}
-
 /// SlamMapper between messages: scans and poses of the body go in, poses of the body come out.
 class ScanLocator {
  public:
@@ -38,9 +32,6 @@ class ScanLocator {
   const SlamMapper& slam() const { return slam_; }
 
  private:
-  ScannerMotion motion_during(const sensor_msgs::msg::LaserScan& message,
-                              const PoseHistory::Pose& scanner, const PoseHistory& odometry,
-                              const StaticTransforms::Pose& mount) const;
   PoseHistory::Pose body_at(const Pose2& pose) const;
 
   MapperParams params_;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
@@ -19,6 +21,7 @@ using namespace std::chrono_literals;
 constexpr Duration kGoalPeriod = 100ms;  // of the commander
 constexpr Duration kTick = 50ms;
 constexpr Duration kAlivePeriod = 100ms;  // no plan takes longer
+constexpr Duration kCorruptMapTimeout = 500ms;
 /// A setpoint is so far from a trajectory that is flown at most: it is a little older [m].
 constexpr double kFlownGap = 0.1;
 
@@ -79,10 +82,7 @@ class Planner : public Component {
       reference_ = reference_of(setpoint);
     });
     subscribe(topic::goal, [this](const geometry_msgs::msg::PoseStamped& goal) { on_goal(goal); });
-    subscribe(topic::map, [this](const nav_msgs::msg::OccupancyGrid& map) {
-      grid_ = from_msg(map, OccupancyGrid::Params());
-      plan();
-    });
+    subscribe(topic::map, [this](const nav_msgs::msg::OccupancyGrid& map) { hear(map); });
     subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& answer) {
       if (!active()) adopt(answer);
     });
@@ -109,6 +109,29 @@ class Planner : public Component {
       braking_ = true;
     }
     plan();
+  }
+
+  /// A map that is none is not taken for one without obstacles: the last good one counts, and who
+  /// relies on plans hears of it when no better one comes.
+  void hear(const nav_msgs::msg::OccupancyGrid& map) {
+    OccupancyGrid grid = from_msg(map, OccupancyGrid::Params());
+    if (grid.empty() && !map.data().empty()) {
+      if (!corrupt_since_) {
+        corrupt_since_ = now();
+        log()->warn("a map was refused: {} x {} cells of {} m, {} of them given",
+                    map.info().width(), map.info().height(), map.info().resolution(),
+                    map.data().size());
+      }
+      return;
+    }
+    corrupt_since_.reset();
+    grid_ = std::move(grid);
+    plan();
+  }
+
+  std::string obstacle() const override {
+    const bool lasts = corrupt_since_ && now() - *corrupt_since_ > kCorruptMapTimeout;
+    return lasts ? "map: what comes on it is no map" : "";
   }
 
   bool reference_at_rest() const {
@@ -203,6 +226,7 @@ class Planner : public Component {
   bool braking_ = false;
   Trajectory current_;
   OccupancyGrid grid_;
+  std::optional<Time> corrupt_since_;  // no good map came after
   RigidBodyState vehicle_;
   FlatReference reference_;
   Publisher<swiftlet_msgs::msg::Trajectory> trajectory_;

@@ -12,6 +12,7 @@
 #include "components/runtime/config/config.hpp"
 #include "components/sim/quadrotor.hpp"
 #include "components/sim/sensors/battery.hpp"
+#include "components/sim/sensors/gps.hpp"
 #include "components/sim/sensors/imu.hpp"
 #include "components/sim/sensors/lidar2d.hpp"
 #include "components/sim/sensors/phone_pose.hpp"
@@ -37,6 +38,7 @@ struct Scenario {
     Lidar2d::Params lidar;
     Sonar::Params sonar;
     Battery::Params battery;
+    GpsSensor::Params gps;  ///< where the world says where on Earth it is
   };
   struct Waypoint {
     double x = 0.0;             ///< [m]

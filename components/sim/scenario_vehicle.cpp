@@ -93,6 +93,12 @@ void read_battery(const Config& config, Battery::Params& battery) {
   config.read("current_noise", battery.current_noise, kNotNegative);
 }
 
+void read_gps(const Config& config, GpsSensor::Params& gps) {
+  config.read("rate_hz", gps.rate_hz, kRate);
+  config.read("horizontal_stddev", gps.horizontal_stddev, kNotNegative);
+  config.read("vertical_stddev", gps.vertical_stddev, kNotNegative);
+}
+
 }  // namespace
 
 void read_vehicle(const Config& config, Quadrotor::Params& params) {
@@ -115,6 +121,7 @@ void read_sensors(const Config& config, Scenario::Sensors& sensors) {
   read_lidar(config.child("lidar"), sensors.lidar);
   read_sonar(config.child("sonar"), sensors.sonar);
   read_battery(config.child("battery"), sensors.battery);
+  read_gps(config.child("gps"), sensors.gps);
 }
 
 }  // namespace swiftlet

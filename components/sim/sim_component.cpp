@@ -48,6 +48,7 @@ class SimComponent : public Component {
     scan_ = advertise(topic::scan);
     range_ = advertise(topic::range_down);
     battery_ = advertise(topic::battery);
+    if (simulation_.world().local_origin()) gps_ = advertise(topic::gps_fix);
     truth_ = advertise(topic::sim_truth);
     clock_ = advertise(topic::clock);
     tf_static_ = advertise(topic::tf_static);
@@ -104,6 +105,7 @@ class SimComponent : public Component {
     if (readings.battery != nullptr) publish(*readings.battery);
     if (readings.range_down != nullptr) publish(*readings.range_down);
     if (readings.phone != nullptr) publish(*readings.phone);
+    if (readings.gps != nullptr) publish(*readings.gps);
     if (readings.scan != nullptr) publish(*readings.scan);
     for (std::size_t i = 0; i < imu_.size(); ++i) {
       if (readings.imu[i] != nullptr) publish(i, *readings.imu[i]);
@@ -150,6 +152,23 @@ class SimComponent : public Component {
       message.pose().covariance()[7 * (i + 3)] = attitude * attitude;
     }
     phone_.publish(message);
+  }
+
+  void publish(const GpsReading& reading) {
+    using namespace sensor_msgs::msg;
+    NavSatFix message;
+    message.header(make_header(run_time(reading.time), frame::kBody));
+    message.status().status(NavSatStatus_Constants::STATUS_FIX);
+    message.status().service(NavSatStatus_Constants::SERVICE_GPS);
+    message.latitude(reading.position.latitude);
+    message.longitude(reading.position.longitude);
+    message.altitude(reading.position.altitude);
+    const double horizontal = reading.horizontal_stddev * reading.horizontal_stddev;
+    message.position_covariance()[0] = horizontal;
+    message.position_covariance()[4] = horizontal;
+    message.position_covariance()[8] = reading.vertical_stddev * reading.vertical_stddev;
+    message.position_covariance_type(NavSatFix_Constants::COVARIANCE_TYPE_DIAGONAL_KNOWN);
+    gps_.publish(message);
   }
 
   void publish(const LaserScanReading& reading) {
@@ -210,6 +229,7 @@ class SimComponent : public Component {
   Publisher<sensor_msgs::msg::LaserScan> scan_;
   Publisher<sensor_msgs::msg::Range> range_;
   Publisher<sensor_msgs::msg::BatteryState> battery_;
+  Publisher<sensor_msgs::msg::NavSatFix> gps_;
   Publisher<swiftlet_msgs::msg::SimTruth> truth_;
   Publisher<rosgraph_msgs::msg::Clock> clock_;
   Publisher<tf2_msgs::msg::TFMessage> tf_static_;

@@ -22,6 +22,7 @@ Simulation::Simulation(const Scenario& scenario)
       lidar_(scenario.sensors.lidar, RandomStream(scenario.seed, "lidar")),
       sonar_(scenario.sensors.sonar, RandomStream(scenario.seed, "sonar")),
       battery_(scenario.sensors.battery, RandomStream(scenario.seed, "battery")),
+      gps_(scenario.sensors.gps, world_.local_origin(), RandomStream(scenario.seed, "gps")),
       obstacle_is_there_(scenario.obstacles.size(), false) {
   const Scenario::Start& start = scenario.start;
   const double ground = world_.ground_height(start.x, start.y).value_or(0.0);
@@ -54,6 +55,7 @@ SensorReadings Simulation::step(Duration dt, const Eigen::Vector4d& thrust_comma
   readings.scan = lidar_.update(truth, world_);
   readings.range_down = sonar_.update(truth, world_);
   readings.battery = battery_.update(truth);
+  readings.gps = gps_.update(truth);
   return readings;
 }
 

@@ -18,6 +18,7 @@ struct SensorReadings {
   const LaserScanReading* scan = nullptr;
   const RangeReading* range_down = nullptr;
   const BatteryReading* battery = nullptr;
+  const GpsReading* gps = nullptr;
 };
 
 /// A vehicle with its sensors in its world. It asks no clock and holds all its state: the same
@@ -63,6 +64,7 @@ class Simulation {
   Lidar2d lidar_;
   Sonar sonar_;
   Battery battery_;
+  GpsSensor gps_;
   std::vector<bool> obstacle_is_there_;
   Eigen::Vector3d start_ = Eigen::Vector3d::Zero();
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "components/sim/shape.hpp"
+#include "estimation/geodesy/local_origin.hpp"
 
 namespace swiftlet {
 
@@ -45,6 +46,9 @@ class World {
                const Eigen::Vector3d& size);
   /// Removes all shapes of `model`, and tells whether there were any.
   bool remove(const std::string& model);
+  /// Where on Earth the world's origin is, if its file says so (`<spherical_coordinates>`).
+  const std::optional<LocalOrigin>& local_origin() const { return local_origin_; }
+
   /// Counts up with every change of the shapes.
   std::uint64_t revision() const;
 
@@ -79,6 +83,7 @@ class World {
   std::vector<Outline> slice(double height) const;
 
  private:
+  std::optional<LocalOrigin> local_origin_;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -260,6 +260,26 @@ class CapturedStandardError {
                   where, message));
 }
 
+/// Of a world whose x axis points east, as ours do.
+std::optional<LocalOrigin> origin_of(const sdf::World& world, const fs::path& file) {
+  const ignition::math::SphericalCoordinates* coordinates = world.SphericalCoordinates();
+  if (coordinates == nullptr) return std::nullopt;
+  const GlobalPosition origin{coordinates->LatitudeReference().Degree(),
+                              coordinates->LongitudeReference().Degree(),
+                              coordinates->ElevationReference()};
+  if (!origin.usable()) {
+    throw ConfigError(
+        fmt::format("{}: <spherical_coordinates> are no place on Earth; give latitude "
+                    "and longitude in degrees",
+                    file.string()));
+  }
+  if (coordinates->HeadingOffset().Radian() != 0.0) {
+    throw ConfigError(fmt::format(
+        "{}: <heading_deg> is not 0; the x axis of a world points east (REP-103)", file.string()));
+  }
+  return LocalOrigin(origin);
+}
+
 }  // namespace
 
 World World::load(const fs::path& file, const std::vector<std::string>& ground_models) {
@@ -290,6 +310,7 @@ World World::load(const fs::path& file, const std::vector<std::string>& ground_m
   for (std::uint64_t i = 0; i < description.ModelCount(); ++i) {
     reader.read(*description.ModelByIndex(i), Isometry3d::Identity(), "");
   }
+  world.local_origin_ = origin_of(description, file);
   return world;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/lidar_mapper/scan_message.hpp"
+#include "components/surroundings/scan_message.hpp"
 
 namespace swiftlet {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/bag/terminal.hpp"
+#include "components/terminal/terminal.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>

@@ -43,35 +43,22 @@ struct Surfaces {
   std::vector<bool> starts;
 };
 
-Surfaces returns_of(const LaserScan& scan, const ScannerMotion& motion, double max_range) {
+Surfaces surfaces_of(const LaserScan& scan, const std::vector<LevelledReturn>& returns) {
   Surfaces surfaces;
-  surfaces.points.reserve(scan.ranges.size());
-  const Eigen::Matrix3d R_HL = motion.q_HL.normalized().toRotationMatrix();
-  double last_range = 0.0;
-  std::size_t last_beam = 0;
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const double range = scan.ranges[i];
-    if (!(range >= scan.range_min && range < scan.range_max && range <= max_range)) continue;
-    const double beam = static_cast<double>(i);
-    const double angle = scan.angle_min + beam * scan.angle_increment;
-    const Eigen::Vector3d p_H =
-        range * (R_HL.col(0) * std::cos(angle) + R_HL.col(1) * std::sin(angle));
-    const double height = motion.height + p_H.z();
-    if (height < motion.min_height || height > motion.max_height) continue;
-    const double later = beam * scan.time_increment;
-    const Vector2d point = motion.velocity * later +
-                           Eigen::Rotation2Dd(motion.yaw_rate * later) * Vector2d(p_H.head<2>());
-    if (!point.allFinite() || point.norm() > 2.0 * max_range) continue;  // its times are nonsense
-    bool start = surfaces.points.empty();
+  surfaces.points.reserve(returns.size());
+  surfaces.starts.reserve(returns.size());
+  const LevelledReturn* last = nullptr;
+  for (const LevelledReturn& now : returns) {
+    bool start = last == nullptr;
     if (!start) {
-      const double turned = std::abs(scan.angle_increment) * static_cast<double>(i - last_beam);
-      const double upright = std::min(range, last_range) * turned;
-      start = (point - surfaces.points.back()).norm() > std::max(kMaxGap, kGrazing * upright);
+      const double turned =
+          std::abs(scan.angle_increment) * static_cast<double>(now.beam - last->beam);
+      const double upright = std::min(now.range, last->range) * turned;
+      start = (now.position - last->position).norm() > std::max(kMaxGap, kGrazing * upright);
     }
-    surfaces.points.push_back(point);
+    surfaces.points.push_back(now.position);
     surfaces.starts.push_back(start);
-    last_range = range;
-    last_beam = i;
+    last = &now;
   }
   return surfaces;
 }
@@ -80,7 +67,7 @@ Surfaces returns_of(const LaserScan& scan, const ScannerMotion& motion, double m
 
 ScanPoints scan_points(const LaserScan& scan, const ScannerMotion& motion,
                        const ScanPointsParams& params) {
-  const Surfaces surfaces = returns_of(scan, motion, params.max_range);
+  const Surfaces surfaces = surfaces_of(scan, levelled_returns(scan, motion, params.max_range));
   const std::vector<Vector2d>& points = surfaces.points;
   ScanPoints result;
   result.reserve(points.size());

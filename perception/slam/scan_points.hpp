@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Geometry>
-#include <limits>
+#include <Eigen/Core>
 #include <vector>
 
-#include "perception/laser_scan.hpp"
+#include "perception/levelled_scan.hpp"
 
 namespace swiftlet {
 
@@ -22,19 +21,6 @@ struct ScanPointsParams {
   double max_range = 25.0;      ///< returns from beyond are left out [m]
   double normal_radius = 0.30;  ///< neighbours up to that far make the line through a point [m]
   double spacing = 0.04;        ///< of points along a surface; nearer ones are left out [m]
-};
-
-/// How the scanner was held and moved while it took a scan.
-struct ScannerMotion {
-  /// Attitude of the scanner's frame L in a frame H beneath the same origin that is level and looks
-  /// the same way: roll and pitch without yaw.
-  Eigen::Quaterniond q_HL = Eigen::Quaterniond::Identity();
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< in H [m/s]
-  double yaw_rate = 0.0;                               ///< [rad/s]
-  double height = 0.0;                                 ///< of the scanner [m]
-  /// Returns from below or above are the floor's or the ceiling's, and left out [m].
-  double min_height = -std::numeric_limits<double>::infinity();
-  double max_height = std::numeric_limits<double>::infinity();
 };
 
 /// The returns of a scan as points in the plane of H, as it stood at the scan's first beam:

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "components/lidar_mapper/scan_message.hpp"
+#include "components/surroundings/scan_message.hpp"
 #include "components/static_transforms.hpp"
 #include "estimation/geometry/so3.hpp"
 #include "tests/components/component_bench.hpp"

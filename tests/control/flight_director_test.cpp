@@ -42,7 +42,7 @@ TEST(FlightDirectorReadiness, NamesWhatIsMissing) {
   EXPECT_EQ(director.request(Request::arm(), now).error().reason, "arm refused: not on the ground");
   director.set_range_down(0.15);
   director.set_battery(0.1);
-  EXPECT_THAT(refusal(), HasSubstr("battery at 10 %, 15 % are needed"));
+  EXPECT_THAT(refusal(), HasSubstr("battery at 10 %, 30 % are needed"));
   director.set_battery(0.5);
   now += std::chrono::milliseconds(300);
   EXPECT_THAT(refusal(), HasSubstr("no odometry for 0.30 s"));
@@ -411,7 +411,14 @@ TEST(FlightDirectorRobustness, NoInputMakesASetpointThatIsNotFinite) {
       state.q_WB.coeffs()[random() % 4] = number(0.0);
       if (random() % 8 == 0) flight.director.set_estimate(flight.now, state, number(0.01), 0.01);
       if (random() % 8 == 0) flight.director.set_range_down(number(0.1));
-      if (random() % 8 == 0) flight.director.set_battery(number(0.5));
+      if (random() % 400 == 0) flight.director.set_battery(number(0.5));
+      if (random() % 100 == 0) {
+        flight.director.set_sticks({number(0.5), number(0.5), number(0.5), number(0.5), false},
+                                   flight.now);
+      }
+      if (random() % 8 == 0) {
+        flight.director.set_obstacles(NearObstacles({{number(1.0), number(1.0)}}), flight.now);
+      }
       switch (random() % 40) {
         case 0:
           (void)flight.director.request(Request::arm(), flight.now);
@@ -428,6 +435,14 @@ TEST(FlightDirectorRobustness, NoInputMakesASetpointThatIsNotFinite) {
           break;
         case 4:
           if (random() % 4 == 0) (void)flight.director.request(Request::land(), flight.now);
+          break;
+        case 5:
+          (void)flight.director.fly_straight(random(), {{{number(1), number(1), 1}, {}}},
+                                             flight.now);
+          break;
+        case 6:
+          (void)flight.director.request(random() % 2 == 0 ? Request::assist() : Request::go_back(),
+                                        flight.now);
           break;
         default:
           break;

@@ -43,6 +43,8 @@ Request ordinary(Kind kind) {
   switch (kind) {
     case Kind::kTakeoff:
       return Request::takeoff(1.2);
+    case Kind::kGps:
+      return Request::gps(kMission);
     case Kind::kNavigate:
       return Request::navigate(kMission);
     default:
@@ -64,6 +66,15 @@ ModeMachine in(Mode mode, bool armed = true) {
   if (mode == Mode::kLand) {
     EXPECT_TRUE(machine.request(Request::land(), flying()).ok());
   }
+  if (mode == Mode::kManual) {
+    EXPECT_TRUE(machine.request(Request::manual(), flying()).ok());
+  }
+  if (mode == Mode::kAssistedManual) {
+    EXPECT_TRUE(machine.request(Request::assist(), flying()).ok());
+  }
+  if (mode == Mode::kGpsGuidance) {
+    EXPECT_TRUE(machine.request(Request::gps(kMission), flying()).ok());
+  }
   if (mode == Mode::kIndoorNavigation) {
     EXPECT_TRUE(machine.request(Request::navigate(kMission), flying()).ok());
   }
@@ -77,20 +88,27 @@ ModeMachine in(Mode mode, bool armed = true) {
 struct Row {
   Mode mode;
   bool armed;
-  // The mode afterwards, in the order arm, disarm, takeoff, hover, land, navigate, explore;
-  // "=" accepted and nothing changes, "-" refused.
+  // The mode afterwards, in the order arm, disarm, takeoff, hover, land, manual, assist, gps,
+  // navigate, explore, return; "=" accepted and nothing changes, "-" refused.
   std::vector<std::string> answers;
 };
 
+// clang-format off
+const std::string kM = "Manual", kA = "Assisted Manual", kG = "GPS Guidance", kN = "Indoor Navigation",
+                  kE = "Indoor Exploration";
 const std::vector<Row> kExpected{
-    {Mode::kGrounded, false, {"Grounded", "=", "-", "-", "=", "-", "-"}},
-    {Mode::kGrounded, true, {"=", "Grounded", "Takeoff", "-", "=", "-", "-"}},
-    {Mode::kTakeoff, true, {"=", "-", "=", "Hover", "Land", "-", "-"}},
-    {Mode::kHover, true, {"=", "-", "=", "=", "Land", "Indoor Navigation", "Indoor Exploration"}},
-    {Mode::kLand, true, {"=", "-", "-", "Hover", "=", "-", "-"}},
-    {Mode::kIndoorNavigation, true, {"=", "-", "=", "Hover", "Land", "=", "Indoor Exploration"}},
-    {Mode::kIndoorExploration, true, {"=", "-", "=", "Hover", "Land", "Indoor Navigation", "="}},
+    {Mode::kGrounded, false, {"Grounded", "=", "-", "-", "=", "-", "-", "-", "-", "-", "-"}},
+    {Mode::kGrounded, true, {"=", "Grounded", "Takeoff", "-", "=", "-", "-", "-", "-", "-", "-"}},
+    {Mode::kTakeoff, true, {"=", "-", "=", "Hover", "Land", kM, kA, "-", "-", "-", "-"}},
+    {Mode::kHover, true, {"=", "-", "=", "=", "Land", kM, kA, kG, kN, kE, kN}},
+    {Mode::kLand, true, {"=", "-", "-", "Hover", "=", kM, kA, "-", "-", "-", "-"}},
+    {Mode::kManual, true, {"=", "-", "=", "Hover", "Land", "=", kA, kG, kN, kE, kN}},
+    {Mode::kAssistedManual, true, {"=", "-", "=", "Hover", "Land", kM, "=", kG, kN, kE, kN}},
+    {Mode::kGpsGuidance, true, {"=", "-", "=", "Hover", "Land", kM, kA, "=", kN, kE, kG}},
+    {Mode::kIndoorNavigation, true, {"=", "-", "=", "Hover", "Land", kM, kA, kG, "=", kE, kN}},
+    {Mode::kIndoorExploration, true, {"=", "-", "=", "Hover", "Land", kM, kA, kG, kN, "=", kN}},
 };
+// clang-format on
 
 TEST(ModeMachineRequests, EveryPairOfModeAndRequestAnswersAsTheTable) {
   for (const Row& row : kExpected) {
@@ -141,8 +159,8 @@ TEST(ModeMachineRequests, AskedTwiceTheyChangeNothingTheSecondTime) {
 }
 
 TEST(ModeMachineRequests, ATakeoffToAnotherAltitudeIsAnotherRequest) {
-  for (const Mode mode :
-       {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation, Mode::kIndoorExploration}) {
+  for (const Mode mode : kModes) {
+    if (mode == Mode::kGrounded || mode == Mode::kLand) continue;
     ModeMachine machine = in(mode);
     const auto result = machine.request(Request::takeoff(2.0), flying());
     ASSERT_FALSE(result.ok());
@@ -195,6 +213,18 @@ TEST(ModeMachineRequests, RefusalsNameTheCulprit) {
       "navigate refused: waypoint 3 is inside of a wall");
   EXPECT_EQ(reason(in(Mode::kLand), Request::hover(), grounded()),
             "hover refused: on the ground already");
+  s = flying();
+  s.obstacles_problem = "the LIDAR is silent";
+  EXPECT_EQ(reason(in(Mode::kHover), Request::assist(), s), "assist refused: the LIDAR is silent");
+  EXPECT_TRUE(in(Mode::kHover).request(Request::manual(), s).ok());
+  s.sticks_problem = "no remote control";
+  EXPECT_EQ(reason(in(Mode::kHover), Request::manual(), s), "manual refused: no remote control");
+  EXPECT_EQ(reason(in(Mode::kHover), Request::assist(), s), "assist refused: no remote control");
+  EXPECT_EQ(reason(in(Mode::kHover), Request::gps(1, "waypoint 1 is 3.0 m outside of the fence"),
+                   flying()),
+            "gps refused: waypoint 1 is 3.0 m outside of the fence");
+  EXPECT_EQ(reason(in(Mode::kHover), Request::go_back("planner is silent"), flying()),
+            "return refused: planner is silent");
 }
 
 TEST(ModeMachineEvents, ACompleteFlightReturnsToGroundedAndDisarmed) {
@@ -231,8 +261,8 @@ TEST(ModeMachineEvents, AHopDoesNotCountAsLanded) {
 }
 
 TEST(ModeMachineEvents, ALostEstimateLandsFromEveryModeInTheAir) {
-  for (const Mode mode :
-       {Mode::kTakeoff, Mode::kHover, Mode::kIndoorNavigation, Mode::kIndoorExploration}) {
+  for (const Mode mode : kModes) {
+    if (mode == Mode::kGrounded || mode == Mode::kLand) continue;
     ModeMachine machine = in(mode);
     Situation s = flying();
     s.estimate_ok = false;
@@ -277,6 +307,86 @@ TEST(ModeMachineEvents, FailedNavigationHoversWithItsReason) {
   EXPECT_EQ(describe(machine.update(s).value()),
             "Indoor Navigation -> Hover: no path to waypoint 2");
   EXPECT_FALSE(machine.update(s).has_value());
+}
+
+using Demand = Situation::Demand;
+
+TEST(ModeMachineEvents, WhatAPolicyDemandsIsDoneFromEveryModeInTheAir) {
+  for (const Mode mode : kModes) {
+    if (mode == Mode::kGrounded || mode == Mode::kLand) continue;
+    Situation s = flying();
+    s.demand_reason = "battery low: 19 %";
+    s.demand = Demand::kLand;
+    ModeMachine lands = in(mode);
+    EXPECT_EQ(describe(lands.update(s).value()),
+              std::string(to_string(mode)) + " -> Land: battery low: 19 %");
+
+    s.demand = Demand::kReturn;
+    ModeMachine returns = in(mode);
+    const Mode way_home = mode == Mode::kTakeoff       ? Mode::kLand
+                          : mode == Mode::kGpsGuidance ? Mode::kGpsGuidance
+                                                       : Mode::kIndoorNavigation;
+    EXPECT_EQ(returns.update(s).value().to, way_home) << to_string(mode);
+    EXPECT_EQ(returns.returning(), way_home != Mode::kLand);
+    EXPECT_FALSE(returns.update(s).has_value()) << "it is on its way";
+
+    s.demand = Demand::kHover;
+    ModeMachine stops = in(mode);
+    const auto stopped = stops.update(s);
+    EXPECT_EQ(stopped.has_value(), mode != Mode::kHover);
+    EXPECT_EQ(stops.mode(), Mode::kHover);
+  }
+  for (const Demand demand : {Demand::kLand, Demand::kReturn, Demand::kHover}) {
+    Situation s = flying();
+    s.demand = demand;
+    EXPECT_FALSE(in(Mode::kLand).update(s).has_value()) << "who lands goes on landing";
+    s = grounded();
+    s.demand = demand;
+    EXPECT_FALSE(in(Mode::kGrounded).update(s).has_value());
+  }
+}
+
+TEST(ModeMachineEvents, TheWayHomeEndsInALandingWhetherItIsFoundOrNot) {
+  for (const Mode mode : {Mode::kIndoorNavigation, Mode::kGpsGuidance}) {
+    for (const Navigation end : {Navigation::kFinished, Navigation::kFailed}) {
+      ModeMachine machine = in(mode);
+      ASSERT_EQ(machine.request(Request::go_back(), flying()).value(), Acceptance::kChanged);
+      EXPECT_EQ(machine.request(Request::go_back(), flying()).value(), Acceptance::kUnchanged);
+      EXPECT_EQ(machine.mode(), mode);
+      ASSERT_TRUE(machine.returning());
+      Situation s = flying();
+      s.navigation = end;
+      s.navigation_problem = "no path to the take-off point";
+      EXPECT_EQ(describe(machine.update(s).value()),
+                std::string(to_string(mode)) + " -> Land: " +
+                    (end == Navigation::kFinished ? "back home"
+                                                  : "no way home: no path to the take-off point"));
+      EXPECT_FALSE(machine.returning());
+    }
+    // The mission that was flown before is another thing than the way home.
+    ModeMachine machine = in(mode);
+    ASSERT_TRUE(machine.request(Request::go_back(), flying()).ok());
+    const auto again = machine.request(
+        mode == Mode::kGpsGuidance ? Request::gps(kMission) : Request::navigate(kMission),
+        flying());
+    EXPECT_EQ(again.value(), Acceptance::kChanged);
+    EXPECT_FALSE(machine.returning());
+  }
+}
+
+TEST(ModeMachineEvents, WhoCannotBeSteeredHovers) {
+  for (const Mode mode : {Mode::kManual, Mode::kAssistedManual}) {
+    ModeMachine machine = in(mode);
+    Situation s = flying();
+    s.sticks_problem = "the remote control is silent";
+    EXPECT_EQ(describe(machine.update(s).value()),
+              std::string(to_string(mode)) + " -> Hover: the remote control is silent");
+  }
+  Situation s = flying();
+  s.obstacles_problem = "the LIDAR is silent";
+  EXPECT_FALSE(in(Mode::kManual).update(s).has_value());
+  EXPECT_EQ(describe(in(Mode::kAssistedManual).update(s).value()),
+            "Assisted Manual -> Hover: the LIDAR is silent");
 }
 
 TEST(ModeMachineEvents, ATakeoffThatStaysOnTheGroundLandsAndDisarms) {
@@ -340,11 +450,18 @@ TEST(ModeMachineReadme, ShowsTheTablesOfTheCode) {
     }
   }
   table << "\n";
+  // Rules that differ in nothing but where they lead from are one line.
   std::ostringstream events;
   events << "| from | what happens | to |\n| --- | --- | --- |\n";
-  for (const EventRule& rule : ModeMachine::event_rules()) {
-    events << "| " << to_string(rule.from) << " | " << to_string(rule.event) << " | "
-           << to_string(rule.to) << " |\n";
+  const std::vector<EventRule>& rules = ModeMachine::event_rules();
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const bool goes_on =
+        i > 0 && rules[i].event == rules[i - 1].event && rules[i].to == rules[i - 1].to;
+    const bool goes_further = i + 1 < rules.size() && rules[i].event == rules[i + 1].event &&
+                              rules[i].to == rules[i + 1].to;
+    events << (goes_on ? ", " : "| ") << to_string(rules[i].from);
+    if (goes_further) continue;
+    events << " | " << to_string(rules[i].event) << " | " << to_string(rules[i].to) << " |\n";
   }
   std::ifstream file(SWIFTLET_SOURCE_DIR "/control/README.md");
   std::stringstream readme;

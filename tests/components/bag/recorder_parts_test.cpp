@@ -13,7 +13,6 @@
 #include "components/bag/background_writer.hpp"
 #include "components/bag/loss_ledger.hpp"
 #include "components/bag/sample_window.hpp"
-#include "components/bag/terminal.hpp"
 #include "components/bag/units.hpp"
 
 namespace swiftlet {
@@ -223,23 +222,6 @@ TEST(SampleWindow, KnowsTheLossesOfItsTimeOnly) {
     window.add(sample_of(10, second, second * kSecond), false);
   }
   EXPECT_EQ(total(window.content(30 * kSecond).losses).by_dds, 4U);
-}
-
-TEST(TerminalKeys, AreWhatATerminalSends) {
-  std::string input = " s+-q\x1b[C\x1b[D\x1bOC";
-  EXPECT_THAT(take_keys(input), ElementsAre(key(' '), key('s'), key('+'), key('-'), key('q'),
-                                            Key::kRight, Key::kLeft, Key::kRight));
-  EXPECT_EQ(input, "");
-  // Other keys are nothing, whatever letters are in their sequences: up, page down, F5, Ctrl-right.
-  input = "\x1b[A\x1b[6~\x1b[15~\x1b[1;5C\x01\x02";
-  EXPECT_THAT(take_keys(input), ElementsAre(Key::kRight));
-  // A sequence may come in pieces.
-  input = "x\x1b[";
-  EXPECT_THAT(take_keys(input), ElementsAre(key('x')));
-  input += "D.";
-  EXPECT_THAT(take_keys(input), ElementsAre(Key::kLeft, key('.')));
-  input = "\x1bq";  // Escape, then q
-  EXPECT_THAT(take_keys(input), ElementsAre(key('q')));
 }
 
 TEST(Units, AreThoseThatPeopleWrite) {

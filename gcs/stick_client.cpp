@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/stick_client.hpp"
+
+#include <fmt/format.h>
+
+#include "components/conversions.hpp"
+#include "components/mode_message.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kPeriod = 50ms;
+constexpr Duration kHeartbeat = 250ms;
+/// From its start on it waits so long for somebody who hears it.
+constexpr Duration kTimeout = 1500ms;
+
+struct KeyMeaning {
+  char key;
+  std::size_t stick;  // forward, left, up, turn
+  double value;
+};
+constexpr KeyMeaning kKeys[] = {{'w', 0, 1.0}, {'s', 0, -1.0}, {'a', 1, 1.0}, {'d', 1, -1.0},
+                                {'i', 2, 1.0}, {'k', 2, -1.0}, {'j', 3, 1.0}, {'l', 3, -1.0}};
+
+}  // namespace
+
+void KeySticks::press(Key pressed, Time now) {
+  if (pressed == key('m')) {
+    assisted_ = !assisted_;
+    return;
+  }
+  for (const KeyMeaning& meaning : kKeys) {
+    if (pressed != key(meaning.key)) continue;
+    sticks_[meaning.stick] = {meaning.value, now};
+    return;
+  }
+  sticks_ = {};
+}
+
+Sticks KeySticks::at(Time now) const {
+  const auto value = [&](std::size_t i) {
+    return now - sticks_[i].pressed < kHold ? sticks_[i].value : 0.0;
+  };
+  return {value(0), value(1), value(2), value(3), assisted_};
+}
+
+StickClient::StickClient(const ComponentContext& context, const Held& held, bool by_keys,
+                         Terminal& terminal)
+    : Component(context),
+      held_(held),
+      by_keys_(by_keys),
+      terminal_(terminal),
+      keys_(held.sticks.assisted),
+      begin_(now()) {
+  manual_control_ = advertise(topic::manual_control);
+  subscribe(topic::vehicle_status,
+            [this](const swiftlet_msgs::msg::VehicleStatus& status) { status_ = status; });
+  every(kPeriod, [this](Time now) { advance(now); });
+}
+
+StickClient::~StickClient() {
+  send({}, now());
+  terminal_.clear();
+}
+
+void StickClient::advance(Time now) {
+  if (!matched_ && manual_control_.matched_readers() > 0) matched_ = now;
+  if (!matched_) {
+    if (now - begin_ < kTimeout) return;
+    fmt::print(stderr,
+               "stick: no vehicle answers in domain {}; is a commander running there, and is "
+               "--vehicle right?\n",
+               context().domain);
+    return stop(1);
+  }
+  if (!by_keys_) {
+    if (now - *matched_ >= from_seconds(held_.duration_s)) return stop(0);
+    return send(held_.sticks, now);
+  }
+  for (const Key pressed : terminal_.keys()) keys_.press(pressed, now);
+  const Sticks sticks = keys_.at(now);
+  send(sticks, now);
+  show(sticks);
+}
+
+void StickClient::send(const Sticks& sticks, Time now) {
+  swiftlet_msgs::msg::ManualControl message;
+  message.header(make_header(now, frame::kBody));
+  message.forward(static_cast<float>(sticks.forward));
+  message.left(static_cast<float>(sticks.left));
+  message.up(static_cast<float>(sticks.up));
+  message.turn(static_cast<float>(sticks.turn));
+  message.assisted(sticks.assisted);
+  manual_control_.publish(message);
+}
+
+void StickClient::show(const Sticks& sticks) {
+  terminal_.show(fmt::format(
+      "{:18} forward {:+.0f}  left {:+.0f}  up {:+.0f}  turn {:+.0f}  takes over into {}",
+      status_ ? mode_name(status_->mode()) : "no vehicle/status", sticks.forward, sticks.left,
+      sticks.up, sticks.turn, sticks.assisted ? "Assisted Manual" : "Manual"));
+}
+
+Heartbeat::Heartbeat(const ComponentContext& context) : Component(context) {
+  heartbeat_ = advertise(topic::gcs_heartbeat);
+  every(kHeartbeat, [this](Time) { send(true); });
+}
+
+Heartbeat::~Heartbeat() {
+  send(false);
+}
+
+void Heartbeat::send(bool stays) {
+  swiftlet_msgs::msg::ComponentStatus message;
+  message.header(make_header(now(), ""));
+  message.component_name(name());
+  message.process(context().process);
+  message.active(stays);
+  message.period(to_seconds(kHeartbeat));
+  heartbeat_.publish(message);
+}
+
+}  // namespace swiftlet

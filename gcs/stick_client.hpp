@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "components/terminal/terminal.hpp"
+#include "components/topics.hpp"
+#include "control/steering.hpp"
+
+namespace swiftlet {
+
+/// Keys as sticks: a stick stays where a key has put it while the key repeats, and goes back to its
+/// centre soon after. A terminal does not tell when a key is let go; what is not pressed again
+/// within `kHold` counts as let go.
+class KeySticks {
+ public:
+  static constexpr Duration kHold = std::chrono::milliseconds(600);
+  explicit KeySticks(bool assisted = false) : assisted_(assisted) {}
+
+  /// w s: forward and back; a d: left and right; i k: up and down; j l: turn left and right; m: the
+  /// switch between Manual and Assisted Manual; anything else: all sticks to their centres.
+  void press(Key key, Time now);
+  Sticks at(Time now) const;
+
+ private:
+  struct Stick {
+    double value = 0.0;
+    Time pressed{};
+  };
+  std::array<Stick, 4> sticks_;  // forward, left, up, turn
+  bool assisted_;
+};
+
+/// A remote control: says where the sticks are, 20 times a second, from the keys of the terminal or
+/// as it was told. At the end the sticks are let go.
+class StickClient : public Component {
+ public:
+  struct Held {
+    Sticks sticks;
+    double duration_s = 1.0;
+  };
+  /// Sticks held for a while, or those of the keys, which begin with the switch as it is in `held`.
+  StickClient(const ComponentContext& context, const Held& held, bool by_keys, Terminal& terminal);
+  ~StickClient() override;
+
+ private:
+  void advance(Time now);
+  void send(const Sticks& sticks, Time now);
+  void show(const Sticks& sticks);
+
+  Held held_;
+  bool by_keys_;
+  Terminal& terminal_;
+  KeySticks keys_;
+  Time begin_;
+  std::optional<Time> matched_;  // since when somebody hears it
+  std::optional<swiftlet_msgs::msg::VehicleStatus> status_;
+  Publisher<swiftlet_msgs::msg::ManualControl> manual_control_;
+};
+
+/// Shows the vehicle that a ground station is there, as long as it lives, and at the end that it
+/// leaves.
+class Heartbeat : public Component {
+ public:
+  explicit Heartbeat(const ComponentContext& context);
+  ~Heartbeat() override;
+
+ private:
+  void send(bool stays);
+  Publisher<swiftlet_msgs::msg::ComponentStatus> heartbeat_;
+};
+
+}  // namespace swiftlet
