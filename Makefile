@@ -4,7 +4,7 @@
 # Short names for what one does every day. Each target says what it is doing and repeats nothing
 # that is done already.
 
-.PHONY: help packages build program demo test test-full bench bench-middleware bench-chain asan tsan fuzz format tidy clean
+.PHONY: help packages build program demo test test-full bench bench-middleware bench-chain bench-slam asan tsan fuzz format tidy clean
 
 PROGRAM := build/release/swiftlet
 SCENARIO := components/sim/scenarios/office.yaml
@@ -17,6 +17,7 @@ help:
 	@echo "make test-full  the tests with many seeds and long runs"
 	@echo "make bench      benchmarks;  make bench-middleware  beside Cyclone DDS, roscpp, Fast DDS"
 	@echo "make bench-chain  a phone's pose on its way to the motors, in real time"
+	@echo "make bench-slam   a scan on its way to its pose, while loops are closed"
 	@echo "make asan tsan  the tests under the address and the thread sanitizer"
 	@echo "make fuzz       libFuzzer on all that reads foreign bytes, FUZZ_SECONDS=60 each"
 	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
@@ -69,6 +70,11 @@ bench-chain: build
 	@cmake --build --preset release --parallel $(JOBS) --target chain_bench
 	@echo "== bench: datagram to motor command (half a minute)"
 	@tests/bench/chain/measure build/release
+
+bench-slam: build
+	@cmake --build --preset release --parallel $(JOBS) --target slam_live_bench
+	@echo "== bench: scan to pose while loops are closed (a minute and a half)"
+	@build/release/slam_live_bench
 
 asan tsan: packages
 	@$(MAKE) --no-print-directory build/$@/build.ninja

@@ -56,9 +56,13 @@ void check_inward(const Config& config, const std::string& name) {
 }  // namespace
 
 const std::vector<InwardTopic>& inward_topics() {
-  static const std::vector<InwardTopic> topics{
-      inward_topic(topic::mode), inward_topic(topic::waypoints), inward_topic(topic::goal_pose),
-      inward_topic(topic::goal), inward_topic(topic::parameter_request)};
+  static const std::vector<InwardTopic> topics{inward_topic(topic::mode),
+                                               inward_topic(topic::waypoints),
+                                               inward_topic(topic::goal_pose),
+                                               inward_topic(topic::goal),
+                                               inward_topic(topic::parameter_request),
+                                               inward_topic(topic::manual_control),
+                                               inward_topic(topic::gcs_heartbeat)};
   return topics;
 }
 
@@ -83,8 +87,9 @@ GroundLinkParams read_ground_link(const Config& config, int vehicle_domain) {
       params.outward.push_back(read_outward(section));
     }
   }
-  params.inward = {topic::mode.name, topic::waypoints.name, topic::goal_pose.name,
-                   topic::parameter_request.name};
+  params.inward = {topic::mode.name,           topic::waypoints.name,
+                   topic::goal_pose.name,      topic::parameter_request.name,
+                   topic::manual_control.name, topic::gcs_heartbeat.name};
   config.read("inward", params.inward);
   std::set<std::string> names;
   for (const std::string& name : params.inward) {

@@ -105,6 +105,11 @@ Status draw_rooms(const std::vector<Room>& rooms, const ScanPoints& surfaces,
   return figure.save(image);
 }
 
+/// A length or an area, where it was measured.
+std::string measured(double value, int digits) {
+  return value > 0.0 ? fmt::format("{:.{}f}", value, digits) : "-";
+}
+
 void run_rooms(const std::string& file, const std::string& image, double widest_door, bool json) {
   const SlamMap map = load(file);
   const ScanPoints surfaces = surfaces_of(map.graph);
@@ -117,17 +122,21 @@ void run_rooms(const std::string& file, const std::string& image, double widest_
       list.push_back({{"x_m", room.center.x()},
                       {"y_m", room.center.y()},
                       {"area_m2", room.area},
+                      {"plan_area_m2", room.plan_area()},
                       {"length_m", room.length},
                       {"width_m", room.width},
                       {"axis_rad", room.axis}});
     }
     fmt::print("{}\n", list.dump(2));
   } else {
-    fmt::print("room     at [m]            area [m2]   length [m]   width [m]\n");
+    fmt::print(
+        "room     at [m]            floor [m2]   length [m]   width [m]   plan [m2]   (- where a "
+        "wall was not seen)\n");
     for (std::size_t i = 0; i < rooms.size(); ++i) {
-      fmt::print("{:<4}  {:>7.2f} {:>7.2f}  {:>12.2f} {:>12.3f} {:>11.3f}\n", i + 1,
-                 rooms[i].center.x(), rooms[i].center.y(), rooms[i].area, rooms[i].length,
-                 rooms[i].width);
+      fmt::print("{:<4}  {:>7.2f} {:>7.2f}  {:>13.2f} {:>12} {:>11} {:>11}\n", i + 1,
+                 rooms[i].center.x(), rooms[i].center.y(), rooms[i].area,
+                 measured(rooms[i].length, 3), measured(rooms[i].width, 3),
+                 measured(rooms[i].plan_area(), 2));
     }
   }
   if (image.empty()) return;
@@ -187,8 +196,9 @@ void add_map(CLI::App& app) {
       ->check(CLI::Range(0.005, 1.0));
   draw->callback([options] { run_draw(options->file, options->output, options->resolution); });
 
-  CLI::App* rooms =
-      map->add_subcommand("rooms", "Its rooms, measured: area, and from wall to wall both ways");
+  CLI::App* rooms = map->add_subcommand(
+      "rooms",
+      "Its rooms, measured: free floor, from wall to wall both ways, and the area of a floor plan");
   rooms->add_option("file", options->file, "Map file (.mcap)")->required();
   rooms->add_option("--widest-door", options->widest_door, "What is narrower parts rooms [m]")
       ->check(CLI::Range(0.2, 10.0));

@@ -131,8 +131,8 @@ Scenario Scenario::read(const Config& config) {
 }
 
 std::vector<std::string> components_of(const Scenario& scenario) {
-  std::vector<std::string> names{"sim",          "estimator", "flight_controller",
-                                 "lidar_mapper", "planner",   "commander"};
+  std::vector<std::string> names{"sim",     "estimator", "flight_controller", "lidar_mapper",
+                                 "planner", "guard",     "commander"};
   if (scenario.mission.explore) names.emplace_back("explorer");
   return names;
 }

@@ -17,6 +17,8 @@ struct Room {
   double axis = 0.0;    ///< along which most walls stand or lie, from -45 to 45 degrees [rad]
   double length = 0.0;  ///< from wall to wall along the axis [m]; 0 where no walls are seen
   double width = 0.0;   ///< the same across it [m]
+  /// As a floor plan has it, furniture included; of a room with four walls [m^2].
+  double plan_area() const { return length * width; }
 };
 
 struct RoomSurveyParams {

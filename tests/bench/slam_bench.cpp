@@ -9,54 +9,15 @@
 #include <vector>
 
 #include "perception/slam/lidar_slam.hpp"
-#include "tests/perception/slam/floor_plan.hpp"
+#include "tests/bench/block_drive.hpp"
 
 namespace swiftlet {
 namespace {
 
-constexpr double kRate_hz = 20.0;
-constexpr double kSpeed = 0.8;  // [m/s]
-constexpr int kBeams = 1000;
-
-struct Step {
-  Pose2 odometry;
-  LaserScan scan;
-};
-
-/// Around the block of the office floor, looking ahead, with odometry that drifts.
-std::vector<Step> drive() {
-  const test::FloorPlan plan = test::office_floor();
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  const std::vector<Eigen::Vector2d> corners{{1.5, 1.5}, {22.3, 1.6}, {22.2, 12.4}, {1.7, 12.3}};
-  const double ahead = kSpeed / kRate_hz, turn = 1.0 / kRate_hz;
-  std::vector<Step> steps;
-  Pose2 pose{corners[0], 0.0}, odometry;
-  const auto go = [&](const Pose2& next) {
-    const Pose2 moved = pose.inverse() * next;
-    const Eigen::Vector2d slip = 0.03 * moved.position.norm() * Eigen::Vector2d(normal(random), 0);
-    odometry = odometry * Pose2{moved.position + slip, moved.yaw * (1.0 + 0.02 * normal(random))};
-    pose = next;
-    steps.push_back({odometry, plan.scan(pose, kBeams, 1.5 * M_PI, 0.01, random)});
-  };
-  for (std::size_t leg = 0; leg < 5; ++leg) {
-    const Eigen::Vector2d to = corners[(leg + 1) % 4], way = to - pose.position;
-    const double heading = std::atan2(way.y(), way.x());
-    while (std::abs(wrap_angle(heading - pose.yaw)) > turn) {
-      go({pose.position, wrap_angle(pose.yaw + turn)});
-    }
-    const Eigen::Vector2d from = pose.position;
-    for (double d = ahead; d < way.norm(); d += ahead) {
-      go({from + way.normalized() * d, heading});
-    }
-  }
-  return steps;
-}
-
 /// One scan after the other, as they come at 20 Hz. Goals: 99 % of scans matched in under 4 ms, all
 /// of it, loops included, under 25 % of a core.
 void match_scans(benchmark::State& state, bool with_odometry) {
-  const std::vector<Step> steps = drive();
+  const std::vector<test::BlockStep> steps = test::drive_around_the_block();
   using Clock = std::chrono::steady_clock;
   const auto since = [](Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -67,7 +28,7 @@ void match_scans(benchmark::State& state, bool with_odometry) {
   for (auto _ : state) {
     LidarSlam slam;
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Time time = Time{} + from_seconds(static_cast<double>(i) / kRate_hz);
+      const Time time = Time{} + from_seconds(static_cast<double>(i) / test::kBlockRate_hz);
       const auto odometry = with_odometry ? std::optional<Pose2>(steps[i].odometry) : std::nullopt;
       const auto begin = Clock::now();
       lost += slam.add(time, scan_points(steps[i].scan), odometry).lost ? 1 : 0;
@@ -80,7 +41,7 @@ void match_scans(benchmark::State& state, bool with_odometry) {
   std::sort(front_ms.begin(), front_ms.end());
   state.counters["p50_ms"] = front_ms[front_ms.size() / 2];
   state.counters["p99_ms"] = front_ms[front_ms.size() * 99 / 100];
-  state.counters["core_percent"] = 100.0 * all_ms * 1e-3 * kRate_hz / scans;
+  state.counters["core_percent"] = 100.0 * all_ms * 1e-3 * test::kBlockRate_hz / scans;
   state.counters["lost"] = lost;
 }
 

@@ -81,7 +81,7 @@ TEST_F(Compare, AFlightIsIdenticalEachTime) {
 
 TEST_F(Compare, EachComponentAloneIsIdentical) {
   for (const char* component :
-       {"estimator", "flight_controller", "lidar_mapper", "planner", "commander"}) {
+       {"estimator", "flight_controller", "lidar_mapper", "planner", "guard", "commander"}) {
     const Outcome outcome = compare({"--into", component});
     EXPECT_EQ(outcome.exit_code, 0) << component << ": " << outcome.result;
     EXPECT_GT(outcome.result["compared"], 100) << component;
