@@ -102,7 +102,8 @@ void FlightDirector::follow_sticks(Time now) {
 }
 
 /// As much of what sticks ask for as the room around leaves: floor, ceiling, fence, and obstacles
-/// for who is assisted. The direction is kept: who is stopped does not slide along the wall.
+/// for who is assisted. The direction is kept: who is stopped does not slide along the wall, and
+/// who is too near and pushes on goes back to the distance that is set.
 Steering FlightDirector::allowed(Steering wanted, Time now) const {
   const FlatReference at = reference(now);
   double& climb = wanted.velocity.z();
@@ -119,7 +120,18 @@ Steering FlightDirector::allowed(Steering wanted, Time now) const {
   double way = way_to_fence(place, direction);
   if (machine_.mode() == Mode::kAssistedManual) {
     const double radius = params_.vehicle_radius + params_.obstacle_distance;
-    way = std::min(way, obstacles_.free_way(place, direction, radius));
+    const double free = obstacles_.free_way(place, direction, radius);
+    if (free <= 0.0) {
+      // Nearer than is set, be it that the estimate drifted or that somebody came: back to there.
+      const Eigen::Vector2d from_obstacle = place - *obstacles_.nearest(place);
+      const double distance = from_obstacle.norm();
+      wanted.velocity.head<2>() = Eigen::Vector2d::Zero();
+      if (distance > 0.0) {
+        wanted.velocity.head<2>() = from_obstacle * (speed_for(radius - distance) / distance);
+      }
+      return wanted;
+    }
+    way = std::min(way, free);
   }
   wanted.velocity.head<2>() = direction * std::min(speed, speed_for(way));
   return wanted;

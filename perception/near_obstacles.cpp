@@ -15,12 +15,18 @@ NearObstacles::NearObstacles(std::vector<Eigen::Vector2d> points) : points_(std:
                 points_.end());
 }
 
+std::optional<Eigen::Vector2d> NearObstacles::nearest(const Eigen::Vector2d& place) const {
+  const auto found = std::min_element(
+      points_.begin(), points_.end(), [&place](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+        return (a - place).squaredNorm() < (b - place).squaredNorm();
+      });
+  if (found == points_.end()) return std::nullopt;
+  return *found;
+}
+
 double NearObstacles::clearance(const Eigen::Vector2d& place) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& point : points_) {
-    nearest = std::min(nearest, (point - place).squaredNorm());
-  }
-  return std::sqrt(nearest);
+  const auto point = nearest(place);
+  return point ? (*point - place).norm() : std::numeric_limits<double>::infinity();
 }
 
 double NearObstacles::free_way(const Eigen::Vector2d& place, const Eigen::Vector2d& direction,

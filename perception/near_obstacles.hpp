@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace swiftlet {
@@ -15,6 +16,8 @@ class NearObstacles {
   /// Points on the map [m]; what is no number is left out.
   explicit NearObstacles(std::vector<Eigen::Vector2d> points);
 
+  /// The point nearest to a place [m], where there is one.
+  std::optional<Eigen::Vector2d> nearest(const Eigen::Vector2d& place) const;
   /// From a place to the nearest point [m]; infinite where there is none.
   double clearance(const Eigen::Vector2d& place) const;
 

@@ -16,6 +16,24 @@ using namespace std::chrono_literals;
 
 constexpr Duration kHistory = 2s;
 constexpr Duration kMaxGap = 100ms;
+/// Beams to either side that see the same surface, nearer to each other than kSameSurface [m].
+constexpr std::size_t kBeside = 2;
+constexpr double kSameSurface = 0.15;
+
+/// Where the surface is that beam `i` met: the mean of it and of its neighbours, where there are as
+/// many to either side. Of many noisy returns the nearest would stop the vehicle too early.
+Eigen::Vector2d surface_at(const std::vector<LevelledReturn>& returns, std::size_t i) {
+  if (i < kBeside || i + kBeside >= returns.size()) return returns[i].position;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t k = i - kBeside; k <= i + kBeside; ++k) {
+    if (returns[k].beam + i != returns[i].beam + k) return returns[i].position;
+    if ((returns[k].position - returns[i].position).norm() > kSameSurface) {
+      return returns[i].position;
+    }
+    sum += returns[k].position;
+  }
+  return sum / (2.0 * kBeside + 1.0);
+}
 
 }  // namespace
 
@@ -51,10 +69,11 @@ std::optional<Surroundings::Seen> Surroundings::take() {
   motion.min_height = params_.min_height;
   motion.max_height = params_.max_height;
   const Pose2 at = planar(scanner);
+  const std::vector<LevelledReturn> returns =
+      levelled_returns(from_msg(scan), motion, params_.max_range);
   std::vector<Eigen::Vector2d> points;
-  for (const LevelledReturn& seen : levelled_returns(from_msg(scan), motion, params_.max_range)) {
-    points.push_back(at * seen.position);
-  }
+  points.reserve(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) points.push_back(at * surface_at(returns, i));
   return Seen{time, NearObstacles(std::move(points))};
 }
 

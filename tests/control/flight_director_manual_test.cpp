@@ -200,8 +200,12 @@ TEST(FlightDirectorAssisted, WhoComesTooNearIsNotApproachedAndMayBeLeft) {
   ASSERT_TRUE(flight.director.request(Request::assist(), flight.now).ok());
   flight.walls = {{0.4, 0.0}};  // nearer than is set
   flight.release(0.2);
-  flight.hold({1.0, 0.0, 0.0, 0.0, true}, 2.0);
-  EXPECT_LT(flight.vehicle.p_WB.x(), 1e-3);
+  flight.hold({1.0, 0.0, 0.0, 0.0, true}, 5.0);
+  EXPECT_NEAR(0.4 - flight.vehicle.p_WB.x(), 0.555, 0.02) << "who pushes on goes back";
+  flight.walls = {{flight.vehicle.p_WB.x() + 0.54, 0.0}};
+  flight.release(0.2);
+  flight.hold({0.0, 1.0, 0.0, 0.0, true}, 3.0);
+  EXPECT_GT(flight.vehicle.p_WB.y(), 0.5) << "along it he may go";
   flight.hold({-1.0, 0.0, 0.0, 0.0, true}, 2.0);
   EXPECT_LT(flight.vehicle.p_WB.x(), -0.8);
 }

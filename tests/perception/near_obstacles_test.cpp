@@ -18,12 +18,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 TEST(NearObstacles, WithoutAnyEverythingIsFree) {
   const NearObstacles none;
   EXPECT_EQ(none.clearance({1.0, 2.0}), kInfinity);
+  EXPECT_FALSE(none.nearest({1.0, 2.0}).has_value());
   EXPECT_EQ(none.free_way({1.0, 2.0}, Vector2d::UnitX(), 0.5), kInfinity);
 }
 
 TEST(NearObstacles, WhatIsNoNumberIsLeftOut) {
   const NearObstacles obstacles({{std::nan(""), 0.0}, {3.0, 0.0}, {0.0, kInfinity}});
   EXPECT_EQ(obstacles.clearance(Vector2d::Zero()), 3.0);
+  EXPECT_EQ(obstacles.nearest(Vector2d::Zero()), Vector2d(3.0, 0.0));
 }
 
 TEST(NearObstacles, ADiscThatTouchesHasNoWayTowardsButOneAway) {
