@@ -93,11 +93,11 @@ void add_gps(CLI::App& gcs, const Network& network) {
 void add_stick(CLI::App& gcs, const Network& network) {
   const auto held = std::make_shared<StickClient::Held>();
   CLI::App* verb = gcs.add_subcommand(
-      "stick",
-      "A remote control. With keys: w s forward and back, a d left and right, i k up and down, j l "
-      "turn, m Manual or Assisted Manual, space lets go, Ctrl-C ends. Without keys: sticks that "
-      "are "
-      "held for some seconds");
+      "stick", "A remote control: keys of this terminal, or sticks held for a while");
+  verb->footer(
+      "Without --forward and its like, keys steer: w s forward and back, a d left and right, i k "
+      "up "
+      "and\ndown, j l turn, m Manual or Assisted Manual, space lets go, Ctrl-C ends.");
   std::vector<CLI::Option*> sticks;
   const auto add = [&](const char* name, double& value, const char* what) {
     sticks.push_back(verb->add_option(name, value, what)->check(CLI::Range(-1.0, 1.0)));
