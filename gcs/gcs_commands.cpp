@@ -123,7 +123,8 @@ void add_stick(CLI::App& gcs, const Network& network) {
       throw CLI::RuntimeError(2);
     }
     Host host(network->host_options("gcs"));
-    host.emplace<Heartbeat>("heartbeat");
+    // A script that holds sticks for a while is nobody to be missed afterwards.
+    if (!is_held) host.emplace<Heartbeat>("heartbeat");
     host.emplace<StickClient>("gcs", *held, !is_held, terminal);
     const int code = host.run();
     if (code != 0) throw CLI::RuntimeError(code);
