@@ -90,7 +90,8 @@ bool FlightDirector::is_steered() const {
 }
 
 void FlightDirector::follow_sticks(Time now) {
-  const bool silent = to_seconds(now - *sticks_heard_) > params_.sticks_period;
+  // A successor may not have heard them yet.
+  const bool silent = !sticks_heard_ || to_seconds(now - *sticks_heard_) > params_.sticks_period;
   // What is flown comes to rest by itself, and stays there.
   if (silent || sticks_.deflection() <= params_.steering.dead_band) return;
   const FlatReference from = reference(now);

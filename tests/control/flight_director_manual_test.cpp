@@ -267,5 +267,21 @@ TEST(FlightDirectorManual, ASuccessorGoesOnWithoutAStep) {
   EXPECT_GT(flight.vehicle.v_WB_W.norm(), 0.9);
 }
 
+TEST(FlightDirectorManual, ASuccessorWhoHeardNoSticksStopsAndHovers) {
+  HandFlight flight;
+  flight.take_off();
+  flight.release(0.1);
+  ASSERT_TRUE(flight.director.request(Request::manual(), flight.now).ok());
+  flight.hold({1.0, 0.0, 0.0, 0.0, false}, 1.5);
+  FlightDirector successor{settled()};
+  successor.restore(flight.director.state());
+  std::swap(flight.director, successor);
+  flight.remote = false;
+  flight.hold({1.0, 0.0, 0.0, 0.0, false}, 3.0);
+  EXPECT_EQ(flight.mode(), Mode::kHover);
+  EXPECT_THAT(flight.transitions.back(), HasSubstr("no remote control was heard"));
+  EXPECT_EQ(flight.vehicle.v_WB_W.norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace swiftlet::test
