@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "components/conversions.hpp"
+#include "components/manual_control_message.hpp"
 #include "components/mode_message.hpp"
 
 namespace swiftlet {
@@ -87,14 +88,7 @@ void StickClient::advance(Time now) {
 }
 
 void StickClient::send(const Sticks& sticks, Time now) {
-  swiftlet_msgs::msg::ManualControl message;
-  message.header(make_header(now, frame::kBody));
-  message.forward(static_cast<float>(sticks.forward));
-  message.left(static_cast<float>(sticks.left));
-  message.up(static_cast<float>(sticks.up));
-  message.turn(static_cast<float>(sticks.turn));
-  message.assisted(sticks.assisted);
-  manual_control_.publish(message);
+  manual_control_.publish(to_msg(sticks, now));
 }
 
 void StickClient::show(const Sticks& sticks) {

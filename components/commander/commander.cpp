@@ -11,6 +11,7 @@
 #include "components/commander/request_message.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/conversions.hpp"
+#include "components/manual_control_message.hpp"
 #include "components/mode_message.hpp"
 #include "components/planner/trajectory_message.hpp"
 #include "components/setpoint_message.hpp"
@@ -81,7 +82,7 @@ class Commander : public Component {
     subscribe(
         topic::manual_control,
         [this](const swiftlet_msgs::msg::ManualControl& sticks) {
-          director_.set_sticks(sticks_of(sticks), now());
+          director_.set_sticks(from_msg(sticks), now());
         },
         Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {

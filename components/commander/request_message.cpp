@@ -45,10 +45,6 @@ std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command
   }
 }
 
-Sticks sticks_of(const swiftlet_msgs::msg::ManualControl& message) {
-  return {message.forward(), message.left(), message.up(), message.turn(), message.assisted()};
-}
-
 Result<MissionWaypoint> waypoint_of(const geometry_msgs::msg::PoseStamped& goal, double altitude) {
   const std::string& frame = goal.header().frame_id();
   if (!frame.empty() && frame != frame::kMap) {

@@ -14,8 +14,6 @@ namespace swiftlet {
 /// What a command asks for; nothing where there is no such command.
 std::optional<Request> request_of(const swiftlet_msgs::msg::ModeCommand& command);
 
-Sticks sticks_of(const swiftlet_msgs::msg::ManualControl& message);
-
 /// Where a goal leads, as RViz's "2D Goal Pose" and its like send it: place and heading of its
 /// pose. A height of exactly 0, all that a tool on a plane can say, stands for `altitude` [m]. An
 /// error where the pose is not in the map, or is no pose.

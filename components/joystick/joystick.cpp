@@ -12,6 +12,7 @@
 
 #include "components/conversions.hpp"
 #include "components/joystick/joystick_axes.hpp"
+#include "components/manual_control_message.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {
@@ -56,15 +57,7 @@ class Joystick : public Component {
   void advance(Time now) {
     if (file_ < 0 && now >= next_try_) open(now);
     if (file_ < 0 || !read_events()) return;
-    const Sticks sticks = axes_.sticks();
-    swiftlet_msgs::msg::ManualControl message;
-    message.header(make_header(now, frame::kBody));
-    message.forward(static_cast<float>(sticks.forward));
-    message.left(static_cast<float>(sticks.left));
-    message.up(static_cast<float>(sticks.up));
-    message.turn(static_cast<float>(sticks.turn));
-    message.assisted(sticks.assisted);
-    manual_control_.publish(message);
+    manual_control_.publish(to_msg(axes_.sticks(), now));
   }
 
   void open(Time now) {

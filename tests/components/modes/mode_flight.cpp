@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "components/manual_control_message.hpp"
+
 namespace swiftlet::test {
 namespace {
 
@@ -79,14 +81,7 @@ void ScriptedPilot::advance(Time now) {
   }
   step_s = to_seconds(now - *step_begun_);
   if (remote) {
-    swiftlet_msgs::msg::ManualControl sticks;
-    sticks.header(make_header(now, frame::kBody));
-    sticks.forward(static_cast<float>(step.sticks.forward));
-    sticks.left(static_cast<float>(step.sticks.left));
-    sticks.up(static_cast<float>(step.sticks.up));
-    sticks.turn(static_cast<float>(step.sticks.turn));
-    sticks.assisted(step.sticks.assisted);
-    sticks_.publish(sticks);
+    sticks_.publish(to_msg(step.sticks, now));
   }
   // The step's own command needs a moment to arrive.
   if (step_s >= 0.3 && step.done()) {
