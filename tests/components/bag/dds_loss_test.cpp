@@ -81,18 +81,23 @@ TEST_F(DdsLoss, NothingIsMissingForOneThatComesLate) {
   }
 }
 
-/// Publishes a burst of large samples as fast as it can, a thousand small ones among them.
+/// Publishes a burst of large samples as fast as it can, some small ones among them, and ends the
+/// run as soon as the recorder has met or missed each of them.
 struct Burst : Component {
-  static constexpr std::size_t kLarge = 300, kSmall = 1000;
+  static constexpr std::size_t kLarge = 300, kSmallPerLarge = 3;
   explicit Burst(const ComponentContext& context) : Component(context) {
     QosProfile large = qos::event;
     large.depth = 1000;
     image_ = advertise_raw("rt/image", "test::msg::dds_::Blob_", large);
     imu_ = advertise_raw("rt/imu0", kImuType, large);
-    every(10ms, [this](Time now) { speak(now); });
+    every(10ms, [this](Time) { spoken_ ? wait() : speak(); });
   }
-  void speak(Time now) {
-    if (spoken_ || image_->matched_readers() == 0 || imu_->matched_readers() == 0) return;
+  void wait() {
+    const Recorder::Progress progress = recorder->progress();
+    if (progress.messages + progress.lost_by_dds >= kLarge * (1 + kSmallPerLarge)) stop(0);
+  }
+  void speak() {
+    if (image_->matched_readers() == 0 || imu_->matched_readers() == 0) return;
     spoken_ = true;
     std::mt19937 random(1);
     Cdr cdr = random_cdr(random, 1);
@@ -103,10 +108,11 @@ struct Burst : Component {
     const Cdr small(100, 1);
     for (std::size_t i = 0; i < kLarge; ++i) {
       image_->write(cdr);
-      for (std::size_t j = 0; j < kSmall / kLarge; ++j) imu_->write(small);
+      for (std::size_t j = 0; j < kSmallPerLarge; ++j) imu_->write(small);
     }
-    call_at(now + 3s, [this](Time) { stop(0); });
+    call_at(now() + 30s, [this](Time) { stop(0); });  // what is missing then shows in the counts
   }
+  const Recorder* recorder = nullptr;
   bool spoken_ = false;
   std::shared_ptr<Writer> image_, imu_;
 };
@@ -117,11 +123,12 @@ TEST_F(DdsLoss, WhatIsNotInTheFileIsInItsLedger) {
   options.participant.domain = lease_.domain();
   options.participant.isolated = true;
   Host host(options);
-  host.emplace<Burst>("burst");
+  auto& burst = host.emplace<Burst>("burst");
   RecorderParams params;
   params.file = folder / "f.mcap";
   params.max_memory = 4'000'000;
   auto& recorder = host.emplace<Recorder>("recorder", params);
+  burst.recorder = &recorder;
   ASSERT_EQ(host.run(), 0);
   ASSERT_TRUE(recorder.close().ok());
   const auto reader = mcap::Reader::open(params.file);
