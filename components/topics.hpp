@@ -56,6 +56,19 @@ inline constexpr Topic<swiftlet_msgs::msg::ManualControl> manual_control{"manual
 /// That a ground station is there, and to be missed until it says that it leaves.
 inline constexpr Topic<swiftlet_msgs::msg::ComponentStatus> gcs_heartbeat{"gcs/heartbeat",
                                                                           qos::state, 500ms};
+/// A mission on its way to the vehicle, in parts that are repeated until the vehicle has them all.
+inline constexpr Topic<swiftlet_msgs::msg::MissionPart> mission_upload{"mission/upload",
+                                                                       qos::sensor};
+inline constexpr Topic<swiftlet_msgs::msg::MissionFetch> mission_fetch{"mission/fetch",
+                                                                       qos::sensor};
+/// Parts of the vehicle's mission, to who asked for them.
+inline constexpr Topic<swiftlet_msgs::msg::MissionPart> mission_download{"mission/download",
+                                                                         qos::sensor};
+inline constexpr Topic<swiftlet_msgs::msg::MissionState> mission_state{"mission/state", qos::state,
+                                                                       500ms};
+/// All of it, for a standby.
+inline constexpr Topic<swiftlet_msgs::msg::MissionPart> commander_mission{"commander/mission",
+                                                                          qos::map};
 inline constexpr Topic<swiftlet_msgs::msg::CommandAck> mode_ack{"mode/ack", qos::command};
 inline constexpr Topic<swiftlet_msgs::msg::VehicleStatus> vehicle_status{"vehicle/status",
                                                                          qos::state, 100ms};
@@ -72,6 +85,17 @@ inline constexpr Topic<swiftlet_msgs::msg::Setpoint> guard_setpoint{"guard/setpo
 inline constexpr Topic<swiftlet_msgs::msg::GuardStatus> guard_status{"guard/status", qos::state,
                                                                      100ms};
 inline constexpr Topic<swiftlet_msgs::msg::MotorCommand> motors{"motors", qos::command, 4ms};
+
+// What it carries.
+inline constexpr Topic<swiftlet_msgs::msg::ClawCommand> claw_command{"claw/command", qos::command};
+inline constexpr Topic<swiftlet_msgs::msg::ClawState> claw_state{"claw/state", qos::state, 100ms};
+inline constexpr Topic<swiftlet_msgs::msg::ServoCommand> claw_servo{"claw/servo", qos::command,
+                                                                    20ms};
+inline constexpr Topic<swiftlet_msgs::msg::ServoFeedback> claw_feedback{"claw/feedback",
+                                                                        qos::sensor, 20ms};
+
+/// All that matters of a vehicle, for a link that carries little.
+inline constexpr Topic<swiftlet_msgs::msg::Telemetry> telemetry{"telemetry", qos::sensor, 200ms};
 
 /// How well things go, for people: read by every ROS 2 diagnostics viewer.
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> diagnostics{"diagnostics",
@@ -102,6 +126,11 @@ inline constexpr const char* names[] = {clock.name,
                                         manual_control.name,
                                         gcs_heartbeat.name,
                                         mode_ack.name,
+                                        mission_upload.name,
+                                        mission_fetch.name,
+                                        mission_download.name,
+                                        mission_state.name,
+                                        commander_mission.name,
                                         vehicle_status.name,
                                         goal.name,
                                         exploration.name,
@@ -111,6 +140,11 @@ inline constexpr const char* names[] = {clock.name,
                                         guard_setpoint.name,
                                         guard_status.name,
                                         motors.name,
+                                        claw_command.name,
+                                        claw_state.name,
+                                        claw_servo.name,
+                                        claw_feedback.name,
+                                        telemetry.name,
                                         component_status.name,
                                         parameter_request.name,
                                         parameter_reply.name,

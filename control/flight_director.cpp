@@ -308,6 +308,7 @@ FlightDirector::Status FlightDirector::status(Time now) const {
   status.height = state_.p_WB.z() - flying_.takeoff_point.z();
   status.waypoint = flying_.waypoints.empty() ? 0 : flying_.waypoint + 1;
   status.waypoint_count = flying_.waypoints.size();
+  status.number = flying_.waypoints.empty() ? 0 : flying_.first_number + flying_.waypoint;
   status.mission_done = flying_.mission_done;
   status.home = flying_.takeoff_point;
   return status;

@@ -10,18 +10,13 @@
 
 #include "control/flight_loop.hpp"
 #include "control/flight_reference.hpp"
+#include "control/mission.hpp"
 #include "control/mode_machine.hpp"
 #include "control/steering.hpp"
 #include "perception/near_obstacles.hpp"
 #include "planner/trajectory/piecewise_polynomial.hpp"
 
 namespace swiftlet {
-
-/// A place to fly to.
-struct MissionWaypoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  std::optional<double> yaw;                           ///< [rad]; without, the heading is kept
-};
 
 /// What the planner answered to the goal with that identity.
 struct PlanAnswer {
@@ -127,6 +122,7 @@ class FlightDirector {
     double height = 0.0;
     std::size_t waypoint = 0;  ///< flown to, from 1; 0 without a mission
     std::size_t waypoint_count = 0;
+    std::size_t number = 0;  ///< of that waypoint, as reasons name it
     bool mission_done = false;
     Eigen::Vector3d home = Eigen::Vector3d::Zero();  ///< the take-off point [m]
   };
@@ -148,6 +144,7 @@ class FlightDirector {
     bool blind = false;                ///< in Land: level, without a reference
     std::vector<MissionWaypoint> waypoints;
     std::size_t waypoint = 0;           ///< index of the one flown to
+    std::size_t first_number = 1;       ///< of the first waypoint, as reasons name it
     std::optional<PlanGoal> goal;       ///< none while the vehicle stops first
     std::optional<Time> waiting_since;  ///< for the planner's answer
     std::string refusal;                ///< of the last plan, where it was refused
@@ -185,10 +182,14 @@ class FlightDirector {
   /// Carries out a request, or says why not. `now` is that of the coming tick.
   Result<Acceptance> request(const Request& request, Time now);
   /// Checks the mission and begins to fly it. `id` is the same for the same waypoints.
-  Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now);
+  /// Reasons count waypoints from `first_number` on.
+  Result<Acceptance> fly(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints, Time now,
+                         std::size_t first_number = 1);
   /// The same in straight lines, each leg at the height of its end (GPS Guidance).
   Result<Acceptance> fly_straight(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints,
-                                  Time now);
+                                  Time now, std::size_t first_number = 1);
+  /// Why a place cannot be flown to; "" where it can.
+  std::string waypoint_problem(const MissionWaypoint& waypoint) const;
   void set_plan(const PlanAnswer& answer);
   /// Where to fly in Indoor Exploration; heard at `now`.
   void set_exploration(const ExplorationOrder& order, Time now);
@@ -239,9 +240,10 @@ class FlightDirector {
   double way_to_fence(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
   std::string fence_problem(const Eigen::Vector3d& place, double slack = 0.0) const;
   std::string plan_leaves_fence(const Trajectory& plan) const;
-  std::string mission_problem(const std::vector<MissionWaypoint>& waypoints) const;
+  std::string mission_problem(const std::vector<MissionWaypoint>& waypoints,
+                              std::size_t first_number) const;
   Result<Acceptance> begin(const Request& request, const std::vector<MissionWaypoint>& waypoints,
-                           Time now);
+                           Time now, std::size_t first_number);
   Result<Acceptance> go_back(Time now);
 
   bool is_guided() const;

@@ -4,6 +4,7 @@
 // The part of FlightDirector that flies straight lines: GPS Guidance.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/flight_director.hpp"
@@ -22,17 +23,18 @@ constexpr double kStopMargin = 0.30;
 
 Result<Acceptance> FlightDirector::fly_straight(std::uint64_t id,
                                                 const std::vector<MissionWaypoint>& waypoints,
-                                                Time now) {
-  return begin(Request::gps(id, mission_problem(waypoints)), waypoints, now);
+                                                Time now, std::size_t first_number) {
+  return begin(Request::gps(id, mission_problem(waypoints, first_number)), waypoints, now,
+               first_number);
 }
 
 /// At first to the height of the leg's end, then straight there. What the LIDAR sees on the way
 /// ends it.
 void FlightDirector::follow_legs(Time now) {
   if (flying_.navigation != Navigation::kActive) return;
-  const std::string target = machine_.returning()
-                                 ? "the take-off point"
-                                 : fmt::format("waypoint {}", flying_.waypoint + 1);
+  const std::string target =
+      machine_.returning() ? "the take-off point"
+                           : fmt::format("waypoint {}", flying_.first_number + flying_.waypoint);
   if (obstacles_seen_ && !obstacles_problem(now).empty()) {
     return fail_navigation(obstacles_problem(now));
   }
@@ -56,8 +58,10 @@ void FlightDirector::follow_legs(Time now) {
   const bool at_height = std::abs(next.z() - rest.position.z()) <= kShortestLeg;
   if (at_height) next = goal;
   if ((next - rest.position).norm() > kShortestLeg) {
-    const auto leg = FlightReference::move(now, rest.position, next, rest.yaw,
-                                           at_height ? params_.cruise : params_.takeoff);
+    ReferenceLimits limits = at_height ? params_.cruise : params_.takeoff;
+    const std::optional<double>& speed = flying_.waypoints[flying_.waypoint].speed;
+    limits.velocity = std::min(limits.velocity, speed.value_or(limits.velocity));
+    const auto leg = FlightReference::move(now, rest.position, next, rest.yaw, limits);
     if (!leg.ok()) return fail_navigation(fmt::format("no line to {}", target));
     flying_.simple = leg->trajectory();
     return;

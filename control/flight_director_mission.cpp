@@ -38,30 +38,36 @@ bool moderate(const Trajectory& plan) {
 }  // namespace
 
 /// Why a mission cannot be flown; "" where it can.
-std::string FlightDirector::mission_problem(const std::vector<MissionWaypoint>& waypoints) const {
+std::string FlightDirector::mission_problem(const std::vector<MissionWaypoint>& waypoints,
+                                            std::size_t first_number) const {
   if (waypoints.empty()) return "it has no waypoints";
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const Eigen::Vector3d& position = waypoints[i].position;
-    const bool usable = position.allFinite() &&
-                        position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
-                        std::isfinite(waypoints[i].yaw.value_or(0.0));
-    if (!usable) return fmt::format("waypoint {} is not a place that can be flown to", i + 1);
-    const std::string fence = fence_problem(position);
-    if (!fence.empty()) return fmt::format("waypoint {} is {}", i + 1, fence);
+    const std::string problem = waypoint_problem(waypoints[i]);
+    if (!problem.empty()) return fmt::format("waypoint {} is {}", first_number + i, problem);
   }
   return "";
 }
 
+std::string FlightDirector::waypoint_problem(const MissionWaypoint& waypoint) const {
+  const Eigen::Vector3d& position = waypoint.position;
+  const bool usable = position.allFinite() && position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
+                      std::isfinite(waypoint.yaw.value_or(0.0)) &&
+                      waypoint.speed.value_or(1.0) > 0.0;
+  return usable ? fence_problem(position) : "not a place that can be flown to";
+}
+
 Result<Acceptance> FlightDirector::fly(std::uint64_t id,
-                                       const std::vector<MissionWaypoint>& waypoints, Time now) {
-  std::string problem = mission_problem(waypoints);
+                                       const std::vector<MissionWaypoint>& waypoints, Time now,
+                                       std::size_t first_number) {
+  std::string problem = mission_problem(waypoints, first_number);
   if (problem.empty()) problem = guidance_problem_;
-  return begin(Request::navigate(id, problem), waypoints, now);
+  return begin(Request::navigate(id, problem), waypoints, now, first_number);
 }
 
 /// Asks for the mode that flies the waypoints, and begins.
 Result<Acceptance> FlightDirector::begin(const Request& request,
-                                         const std::vector<MissionWaypoint>& waypoints, Time now) {
+                                         const std::vector<MissionWaypoint>& waypoints, Time now,
+                                         std::size_t first_number) {
   const Mode before = machine_.mode();
   Result<Acceptance> result = machine_.request(request, situation(now));
   if (!result.ok() || *result != Acceptance::kChanged) return result;
@@ -69,6 +75,7 @@ Result<Acceptance> FlightDirector::begin(const Request& request,
       machine_.mode() == before ? "another mission requested" : "mission requested";
   flying_.waypoints = waypoints;
   flying_.waypoint = 0;
+  flying_.first_number = first_number;
   flying_.mission_done = false;
   enter(machine_.mode(), now);
   return result;
@@ -94,7 +101,7 @@ void FlightDirector::set_goal(const MissionWaypoint& waypoint, Time now) {
 std::string FlightDirector::goal_name() const {
   if (machine_.returning()) return "the take-off point";
   if (machine_.mode() == Mode::kIndoorNavigation) {
-    return fmt::format("waypoint {}", flying_.waypoint + 1);
+    return fmt::format("waypoint {}", flying_.first_number + flying_.waypoint);
   }
   const Eigen::Vector3d& place = flying_.goal->waypoint.position;
   return fmt::format("({:.2f}, {:.2f})", place.x(), place.y());
