@@ -7,6 +7,7 @@
 
 #include "components/commander/attendance.hpp"
 #include "components/commander/director_params.hpp"
+#include "components/commander/mission_desk.hpp"
 #include "components/commander/mission_message.hpp"
 #include "components/commander/request_message.hpp"
 #include "components/commander/state_message.hpp"
@@ -27,8 +28,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kTick = 10ms;
-constexpr int kGoalEvery = 10;    // ticks
-constexpr int kStatusEvery = 10;  // ticks
+constexpr int kGoalEvery = 10;     // ticks
+constexpr int kStatusEvery = 10;   // ticks
+constexpr int kMissionEvery = 50;  // ticks
+constexpr int kClawEvery = 20;     // ticks
 /// What a person steers is told to a standby that often [ticks].
 constexpr int kSteeredEvery = 10;
 /// Of a satellite fix that does not say how good it is [m].
@@ -53,12 +56,19 @@ ExplorationOrder order_of(const swiftlet_msgs::msg::Exploration& message) {
 class Commander : public Component {
  public:
   explicit Commander(const ComponentContext& context)
-      : Component(context), params_(read_director_params(parameters())), director_(params_) {
+      : Component(context),
+        params_(read_director_params(parameters())),
+        director_(params_),
+        desk_({params_.gps_altitude}) {
     setpoint_ = advertise(topic::setpoint);
     goal_ = advertise(topic::goal);
     status_ = advertise(topic::vehicle_status);
     ack_ = advertise(topic::mode_ack);
     state_ = advertise(topic::commander_state);
+    mission_state_ = advertise(topic::mission_state);
+    mission_download_ = advertise(topic::mission_download);
+    mission_ = advertise(topic::commander_mission);
+    claw_ = advertise(topic::claw_command);
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
       const auto& covariance = odometry.pose().covariance();
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
@@ -115,6 +125,20 @@ class Commander : public Component {
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
       answer(mission.id(), [&] { return carry_out(mission); });
     });
+    subscribe(topic::mission_upload, [this](const swiftlet_msgs::msg::MissionPart& part) {
+      if (active()) desk_.hear(part, director_);
+    });
+    subscribe(topic::mission_fetch, [this](const swiftlet_msgs::msg::MissionFetch& fetch) {
+      if (!active()) return;
+      for (const auto& part : desk_.answer(fetch, now())) mission_download_.publish(part);
+    });
+    subscribe(topic::commander_mission, [this](const swiftlet_msgs::msg::MissionPart& mission) {
+      if (!active()) desk_.restore(mission);
+    });
+    subscribe(
+        topic::claw_state,
+        [this](const swiftlet_msgs::msg::ClawState& claw) { desk_.hear(claw, now()); },
+        Need::kOptional);
     subscribe(topic::goal_pose, [this](const geometry_msgs::msg::PoseStamped& goal) {
       if (has_stamp(goal)) {
         answer(goal_id(goal), [&] { return carry_out(goal); });
@@ -167,6 +191,7 @@ class Commander : public Component {
   }
 
   Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
+    if (auto result = desk_.carry_out(command, director_, origin_.origin(), now())) return *result;
     const std::optional<Request> request = request_of(command);
     if (!request) return Error{fmt::format("there is no command {}", command.command())};
     return director_.request(*request, now());
@@ -256,6 +281,7 @@ class Commander : public Component {
   void tick(Time now) {
     check_others(now);
     const FlightDirector::Directive directive = director_.tick(now);
+    desk_.tick(director_, origin_.origin(), now);
     swiftlet_msgs::msg::Setpoint setpoint;
     setpoint.header(make_header(directive.setpoint.time, frame::kMap));
     setpoint.kind(to_msg(directive.setpoint.kind));
@@ -266,9 +292,27 @@ class Commander : public Component {
       publish_goal(*directive.goal);
     }
     if (directive.transition) log()->info("{}", describe(*directive.transition));
+    publish_mission(now);
     const bool steered = director_.is_steered() && ticks_ % kSteeredEvery == 0;
     if (steered || differs(director_.state(), shared_)) publish_state(now);
     if (directive.transition || ticks_ % kStatusEvery == 0) publish_status(now);
+  }
+
+  /// Often enough while it changes, and again and again, since a ground station may be far away.
+  void publish_mission(Time now) {
+    if (desk_.claw_open() && ticks_ % kClawEvery == 0) {
+      swiftlet_msgs::msg::ClawCommand command;
+      command.header(make_header(now, frame::kMap));
+      command.open(*desk_.claw_open());
+      claw_.publish(command);
+    }
+    if (ticks_ % kStatusEvery != 0) return;
+    const swiftlet_msgs::msg::MissionState state = desk_.state(now);
+    const bool changed = differs(state, told_);
+    if (state.id() != told_.id()) mission_.publish(desk_.whole(now));
+    if (changed) publish_state(now);
+    if (changed || ticks_ % kMissionEvery == 0) mission_state_.publish(state);
+    told_ = state;
   }
 
   void check_others(Time now) {
@@ -292,12 +336,14 @@ class Commander : public Component {
     swiftlet_msgs::msg::CommanderState message = to_msg(shared_);
     message.header(make_header(now, frame::kMap));
     message.mission().id(mission_id_);
+    desk_.write(message);
     message.answered().assign(answered_.begin(), answered_.end());
     state_.publish(message);
   }
 
   void restore(const swiftlet_msgs::msg::CommanderState& message) {
     director_.restore(from_msg(message));
+    desk_.restore(message);
     mission_id_ = message.mission().id();
     answered_.assign(message.answered().begin(), message.answered().end());
     restored_ = true;
@@ -333,6 +379,8 @@ class Commander : public Component {
   FlightDirector director_;
   FlightDirector::State shared_;  // as the standby knows it
   bool restored_ = false;
+  MissionDesk desk_;
+  swiftlet_msgs::msg::MissionState told_;  // what ground stations were told last
   PlanAnswer last_plan_;
   Surroundings surroundings_;
   OriginEstimate origin_;
@@ -347,6 +395,10 @@ class Commander : public Component {
   Publisher<swiftlet_msgs::msg::VehicleStatus> status_;
   Publisher<swiftlet_msgs::msg::CommandAck> ack_;
   Publisher<swiftlet_msgs::msg::CommanderState> state_;
+  Publisher<swiftlet_msgs::msg::MissionState> mission_state_;
+  Publisher<swiftlet_msgs::msg::MissionPart> mission_download_;
+  Publisher<swiftlet_msgs::msg::MissionPart> mission_;
+  Publisher<swiftlet_msgs::msg::ClawCommand> claw_;
 };
 
 const RegisterComponent<Commander> kRegistered{"commander",

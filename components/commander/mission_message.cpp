@@ -67,6 +67,73 @@ swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
   return mission;
 }
 
+swiftlet_msgs::msg::MissionItem to_msg(const MissionItem& item) {
+  swiftlet_msgs::msg::MissionItem message;
+  message.kind(static_cast<std::uint8_t>(item.kind));
+  message.place().position(to_point(item.place.position));
+  message.place().has_yaw(item.place.yaw.has_value());
+  message.place().yaw(item.place.yaw.value_or(0.0));
+  message.place().is_global(item.global.has_value());
+  if (item.global) {
+    message.place().latitude(item.global->latitude);
+    message.place().longitude(item.global->longitude);
+    message.place().altitude(item.global->altitude);
+  }
+  message.altitude(item.altitude);
+  message.hold(item.hold);
+  message.speed(item.place.speed.value_or(0.0));
+  message.open(item.open);
+  return message;
+}
+
+Result<MissionItem> from_msg(const swiftlet_msgs::msg::MissionItem& message) {
+  using Kind = MissionItem::Kind;
+  MissionItem item;
+  if (message.kind() > static_cast<std::uint8_t>(Kind::kClaw)) {
+    return Error{fmt::format("there is no item of kind {}", message.kind())};
+  }
+  item.kind = static_cast<Kind>(message.kind());
+  item.place.position = from_msg(message.place().position());
+  if (message.place().has_yaw()) item.place.yaw = message.place().yaw();
+  if (message.speed() != 0.0) item.place.speed = message.speed();
+  if (message.place().is_global()) {
+    item.global = GlobalWaypoint{message.place().latitude(), message.place().longitude(),
+                                 message.place().altitude()};
+  }
+  item.hold = message.hold();
+  item.altitude = message.altitude();
+  item.open = message.open();
+  return item;
+}
+
+std::uint32_t checksum(const std::vector<swiftlet_msgs::msg::MissionItem>& items) {
+  swiftlet_msgs::msg::MissionPart bare;
+  bare.items(items);
+  return checksum(to_cdr(bare));
+}
+
+std::vector<swiftlet_msgs::msg::MissionPart> make_parts(
+    Time time, const std::string& id, const std::vector<swiftlet_msgs::msg::MissionItem>& items,
+    const std::vector<std::uint32_t>& indices) {
+  std::vector<swiftlet_msgs::msg::MissionPart> parts;
+  const std::uint32_t sum = checksum(items);
+  for (const std::uint32_t index : indices) {
+    if (index >= items.size()) continue;
+    const bool continues = !parts.empty() && parts.back().items().size() < kItemsPerPart &&
+                           parts.back().first() + parts.back().items().size() == index;
+    if (!continues) {
+      auto& part = parts.emplace_back();
+      part.header(make_header(time, "map"));
+      part.id(id);
+      part.checksum(sum);
+      part.count(static_cast<std::uint32_t>(items.size()));
+      part.first(index);
+    }
+    parts.back().items().push_back(items[index]);
+  }
+  return parts;
+}
+
 bool is_global(const swiftlet_msgs::msg::Mission& mission) {
   return std::any_of(mission.waypoints().begin(), mission.waypoints().end(),
                      [](const auto& item) { return item.is_global(); });
@@ -78,20 +145,17 @@ Result<std::vector<MissionWaypoint>> global_waypoints_of(const swiftlet_msgs::ms
   std::vector<MissionWaypoint> waypoints;
   for (const auto& item : mission.waypoints()) {
     const std::size_t number = waypoints.size() + 1;
-    const GlobalPosition place{item.latitude(), item.longitude(), origin.position().altitude};
     if (!item.is_global()) {
       return Error{fmt::format(
           "gps refused: waypoint {} is in the map, others are on Earth; send two missions",
           number)};
     }
-    if (!place.usable() || !(item.altitude() >= 0.0 && std::isfinite(item.altitude()))) {
-      return Error{fmt::format("gps refused: waypoint {} is no place on Earth", number)};
+    const auto place = place_of({item.latitude(), item.longitude(), item.altitude()}, origin,
+                                usual_altitude, home_z);
+    if (!place.ok()) {
+      return Error{fmt::format("gps refused: waypoint {} is {}", number, place.error().reason)};
     }
-    const double altitude = item.altitude() > 0.0 ? item.altitude() : usual_altitude;
-    MissionWaypoint waypoint;
-    waypoint.position = origin.to_map(place);
-    waypoint.position.z() = home_z + altitude;
-    waypoints.push_back(waypoint);
+    waypoints.push_back({*place});
   }
   return waypoints;
 }

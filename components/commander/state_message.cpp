@@ -60,6 +60,7 @@ swiftlet_msgs::msg::CommanderState to_msg(const FlightDirector::State& state) {
   message.mission(make_mission(Time{}, "", state.waypoints));
   message.mission_identity(state.machine.mission);
   message.waypoint(static_cast<std::uint32_t>(state.waypoint));
+  message.first_number(static_cast<std::uint32_t>(state.first_number));
   message.has_goal(state.goal.has_value());
   if (state.goal) {
     message.goal_stamp(to_msg(goal));
@@ -95,6 +96,7 @@ FlightDirector::State from_msg(const swiftlet_msgs::msg::CommanderState& message
   state.blind = message.blind();
   state.waypoints = waypoints_of(message.mission());
   state.waypoint = message.waypoint();
+  state.first_number = message.first_number();
   if (message.has_goal()) {
     swiftlet_msgs::msg::Mission goal;
     goal.waypoints().push_back(message.goal());

@@ -26,6 +26,7 @@ InwardTopic inward_topic(const Topic<T>& topic) {
 std::vector<OutwardTopic> standard_outward() {
   return {
       {topic::vehicle_status.name, 5.0, 0.0, true},  {topic::mode_ack.name, 0.0, 0.0, true},
+      {topic::mission_state.name, 2.0, 0.0, true},   {topic::mission_download.name, 0.0, 0.0, true},
       {topic::parameter_reply.name, 0.0, 0.0, true}, {topic::component_status.name, 0.0, 0.0, true},
       {topic::diagnostics.name, 0.0, 0.0, true},     {topic::battery.name, 1.0, 0.0, false},
       {topic::odometry.name, 5.0, 0.0, false}};
@@ -58,6 +59,8 @@ void check_inward(const Config& config, const std::string& name) {
 const std::vector<InwardTopic>& inward_topics() {
   static const std::vector<InwardTopic> topics{inward_topic(topic::mode),
                                                inward_topic(topic::waypoints),
+                                               inward_topic(topic::mission_upload),
+                                               inward_topic(topic::mission_fetch),
                                                inward_topic(topic::goal_pose),
                                                inward_topic(topic::goal),
                                                inward_topic(topic::parameter_request),

@@ -29,15 +29,30 @@ std::string last_part(const std::string& topic, std::size_t parts) {
 }
 
 /// Topics that somebody writes only when there is something to say, or in some vehicles: one
-/// without an explorer, a guard or GPS is well, and the commander says what is missing when it is
-/// to explore.
+/// without an explorer, a guard, a claw or GPS is well, and the commander says what is missing when
+/// it is to explore.
 bool is_written_on_demand(const std::string& wire) {
-  static const std::set<std::string> topics{
-      topic::mode.name,           topic::waypoints.name,     topic::goal_pose.name,
-      topic::mode_ack.name,       topic::goal.name,          topic::exploration.name,
-      topic::manual_control.name, topic::gcs_heartbeat.name, topic::guard_setpoint.name,
-      topic::guard_status.name,   topic::gps_fix.name,       topic::parameter_request.name,
-      topic::parameter_reply.name};
+  static const std::set<std::string> topics{topic::mode.name,
+                                            topic::waypoints.name,
+                                            topic::goal_pose.name,
+                                            topic::mode_ack.name,
+                                            topic::goal.name,
+                                            topic::exploration.name,
+                                            topic::manual_control.name,
+                                            topic::gcs_heartbeat.name,
+                                            topic::guard_setpoint.name,
+                                            topic::guard_status.name,
+                                            topic::gps_fix.name,
+                                            topic::parameter_request.name,
+                                            topic::parameter_reply.name,
+                                            topic::mission_upload.name,
+                                            topic::mission_fetch.name,
+                                            topic::mission_download.name,
+                                            topic::claw_command.name,
+                                            topic::claw_state.name,
+                                            topic::claw_servo.name,
+                                            topic::claw_feedback.name,
+                                            topic::telemetry.name};
   const std::string name = topic_of("", wire);
   return topics.count(name) != 0 || topics.count(last_part(name, 1)) != 0 ||
          topics.count(last_part(name, 2)) != 0;

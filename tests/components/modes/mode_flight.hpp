@@ -21,7 +21,7 @@ namespace swiftlet::test {
 /// A pilot with a remote control and a ground station, who does one thing after the other.
 class ScriptedPilot : public Component {
  public:
-  using Component::advertise, Component::every, Component::now;
+  using Component::advertise, Component::every, Component::now, Component::subscribe;
 
   /// One thing: what he does at its beginning, where his sticks are, and until when.
   struct Step {

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/mission_clients.hpp"
+
+#include <utility>
+
+#include "control/mission_runner.hpp"
+
+namespace swiftlet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kTick = 100ms;
+
+int exit_code(const TransferProgress& progress) {
+  return progress.state == TransferProgress::State::kDone ? 0 : 1;
+}
+
+}  // namespace
+
+UploadClient::UploadClient(const ComponentContext& context, const std::string& id,
+                           MissionInbox::Items items, const TransferParams& params,
+                           TellProgress tell)
+    : Component(context), upload_(id, std::move(items), now(), params), tell_(std::move(tell)) {
+  parts_ = advertise(topic::mission_upload);
+  fetch_ = advertise(topic::mission_fetch);
+  subscribe(topic::mission_state,
+            [this](const swiftlet_msgs::msg::MissionState& state) { upload_.hear(state, now()); });
+  subscribe(
+      topic::mission_download,
+      [this](const swiftlet_msgs::msg::MissionPart& part) { upload_.hear(part, now()); },
+      Need::kOptional);
+  every(kTick, [this](Time now) { advance(now); });
+}
+
+void UploadClient::advance(Time now) {
+  const MissionUpload::Outgoing outgoing = upload_.advance(now);
+  for (const auto& part : outgoing.parts) parts_.publish(part);
+  if (outgoing.fetch) fetch_.publish(*outgoing.fetch);
+  tell_(upload_.progress());
+  if (upload_.progress().state != TransferProgress::State::kRunning) {
+    stop(exit_code(upload_.progress()));
+  }
+}
+
+DownloadClient::DownloadClient(const ComponentContext& context, const TransferParams& params,
+                               TellProgress tell)
+    : Component(context), download_(now(), params), tell_(std::move(tell)) {
+  fetch_ = advertise(topic::mission_fetch);
+  subscribe(topic::mission_state, [this](const swiftlet_msgs::msg::MissionState& state) {
+    download_.hear(state, now());
+  });
+  subscribe(
+      topic::mission_download,
+      [this](const swiftlet_msgs::msg::MissionPart& part) { download_.hear(part, now()); },
+      Need::kOptional);
+  every(kTick, [this](Time now) { advance(now); });
+}
+
+void DownloadClient::advance(Time now) {
+  if (const auto fetch = download_.advance(now)) fetch_.publish(*fetch);
+  tell_(download_.progress());
+  if (download_.progress().state != TransferProgress::State::kRunning) {
+    stop(exit_code(download_.progress()));
+  }
+}
+
+MissionStateClient::MissionStateClient(const ComponentContext& context, Duration patience)
+    : Component(context) {
+  subscribe(topic::mission_state, [this](const swiftlet_msgs::msg::MissionState& state) {
+    if (!state_) stop(0);
+    state_ = state;
+  });
+  call_at(now() + patience, [this](Time) { stop(1); });
+}
+
+std::string mission_state_name(std::uint8_t state) {
+  for (const auto known :
+       {MissionRunner::State::kNone, MissionRunner::State::kReady, MissionRunner::State::kFlying,
+        MissionRunner::State::kPaused, MissionRunner::State::kDone}) {
+    if (static_cast<std::uint8_t>(known) == state) return to_string(known);
+  }
+  return "a state that this program does not know";
+}
+
+}  // namespace swiftlet
