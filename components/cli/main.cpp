@@ -6,6 +6,7 @@
 
 #include "components/bag/bag_commands.hpp"
 #include "components/bag/live_commands.hpp"
+#include "components/cli/completion.hpp"
 #include "components/cli/verbs.hpp"
 #ifdef SWIFTLET_WITH_SIM
 #include "components/experiments/experiment_command.hpp"
@@ -82,6 +83,13 @@ int main(int argc, char** argv) {
   swiftlet::add_phone_sim(app);
 #endif
 
+  // What the shell asks for: "swiftlet complete -- gcs ta" says "takeoff".
+  if (argc > 2 && std::string(argv[1]) == "complete" && std::string(argv[2]) == "--") {
+    for (const std::string& name : swiftlet::completions(app, {argv + 3, argv + argc})) {
+      std::printf("%s\n", name.c_str());
+    }
+    return 0;
+  }
   try {
     app.parse(argc, argv);
     return 0;
