@@ -100,21 +100,6 @@ double rate_hz(std::uint64_t messages, double duration) {
   return messages > 1 && duration > 0.0 ? static_cast<double>(messages - 1) / duration : 0.0;
 }
 
-std::string moment(mcap::Timestamp time) {
-  constexpr mcap::Timestamp kSecond = 1'000'000'000;
-  const auto seconds = static_cast<std::time_t>(time / kSecond);
-  std::string text = fmt::format("{}.{:09} s", time / kSecond, time % kSecond);
-  constexpr std::time_t kYear2000 = 946'684'800;
-  if (seconds > kYear2000) text += fmt::format(" ({:%F %T} UTC)", fmt::gmtime(seconds));
-  return text;
-}
-
-std::string size_text(std::uint64_t bytes) {
-  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
-  if (bytes < 10'000'000) return fmt::format("{:.1f} kB", 1e-3 * static_cast<double>(bytes));
-  return fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
-}
-
 struct ChunkSums {
   std::size_t count = 0;
   std::uint64_t stored = 0;
@@ -172,6 +157,21 @@ std::string printable(std::string text) {
   return text;
 }
 
+std::string moment_text(mcap::Timestamp time) {
+  constexpr mcap::Timestamp kSecond = 1'000'000'000;
+  const auto seconds = static_cast<std::time_t>(time / kSecond);
+  std::string text = fmt::format("{}.{:09} s", time / kSecond, time % kSecond);
+  constexpr std::time_t kYear2000 = 946'684'800;
+  if (seconds > kYear2000) text += fmt::format(" ({:%F %T} UTC)", fmt::gmtime(seconds));
+  return text;
+}
+
+std::string size_text(std::uint64_t bytes) {
+  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
+  if (bytes < 10'000'000) return fmt::format("{:.1f} kB", 1e-3 * static_cast<double>(bytes));
+  return fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
+}
+
 std::string describe(const Recording& recording, bool sizes) {
   const mcap::Statistics& statistics = recording.statistics();
   const double duration = duration_s(statistics);
@@ -190,8 +190,8 @@ std::string describe(const Recording& recording, bool sizes) {
        files.front().header().profile + ", written by " + files.front().header().library);
   line("messages", std::to_string(statistics.message_count));
   if (statistics.message_count > 0) {
-    line("from", moment(statistics.message_start_time));
-    line("to", moment(statistics.message_end_time));
+    line("from", moment_text(statistics.message_start_time));
+    line("to", moment_text(statistics.message_end_time));
     line("duration", fmt::format("{:.3f} s", duration));
   }
   const auto losses = losses_of(recording);

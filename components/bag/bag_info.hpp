@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -21,6 +22,11 @@ nlohmann::json to_json(const std::string& file, const mcap::Verification& verifi
 
 /// What a repair did.
 nlohmann::json to_json(const RepairedFile& repaired);
+
+/// "12.000000000 s", and the date where the clock counts from 1970 as others do.
+std::string moment_text(mcap::Timestamp time);
+/// "21.8 MB".
+std::string size_text(std::uint64_t bytes);
 
 /// The text with control characters replaced: names in a file must not steer the terminal.
 std::string printable(std::string text);

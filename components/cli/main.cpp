@@ -18,6 +18,7 @@
 #endif
 #include "components/launch/launch_command.hpp"
 #include "components/replay/replay_command.hpp"
+#include "components/report/report_command.hpp"
 #include "components/runtime/component.hpp"
 #include "components/runtime/log.hpp"
 #include "gcs/gcs_commands.hpp"
@@ -71,6 +72,7 @@ int main(int argc, char** argv) {
   swiftlet::add_bag_commands(*bag);
   swiftlet::add_live_bag_commands(*bag);
   swiftlet::add_replay(app);
+  swiftlet::add_report(app);
 #ifdef SWIFTLET_WITH_SLAM
   swiftlet::add_map(app);
 #endif
