@@ -59,7 +59,7 @@ void DecisionReader::note_mode(double time, const swiftlet_msgs::msg::VehicleSta
       time, Level::kInfo, "mode",
       fmt::format("{} → {}{}", mode_name(status_->mode()), name, because(message.reason())));
   if (status_->mode() == mode::GROUNDED) {
-    const Eigen::Vector3d point = from_msg(message.takeoff_point());
+    const Eigen::Vector3d point = position.value_or(from_msg(message.takeoff_point()));
     story_.map.takeoffs.push_back({time, point.head<2>(), "take-off"});
   }
   if (message.mode() == mode::GROUNDED && position) {

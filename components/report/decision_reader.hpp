@@ -16,6 +16,8 @@ class DecisionReader {
  public:
   explicit DecisionReader(FlightStory& story) : story_(story) {}
 
+  /// That modes will come: before the first of them, nobody flies.
+  void expect_modes() { phase_.is_known = true; }
   /// `position`: where the vehicle was last.
   void on_status(double time, const swiftlet_msgs::msg::VehicleStatus& message,
                  const std::optional<Eigen::Vector3d>& position);

@@ -48,7 +48,7 @@ void HealthReader::on_battery(double time, const sensor_msgs::msg::BatteryState&
   const double percentage = 100.0 * message.percentage();
   curves.battery_percentage.add(time, percentage);
   curves.battery_voltage.add(time, voltage);
-  // By REP-107's message a battery that is being emptied may say so with a negative current.
+  // Negative while the battery is emptied, as sensor_msgs/BatteryState has it; not all say so.
   curves.battery_current.add(time, current);
   auto& use = story_.figures.battery;
   if (!use) use.emplace();

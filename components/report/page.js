@@ -80,7 +80,7 @@ class TimePlot {
     const caption = tag('figcaption', '', figure);
     tag('strong', '', caption, plot.title + (plot.unit ? ' [' + plot.unit + ']' : ''));
     this.values = plot.series.map((series) => {
-      const key = tag('span', 'key', caption);
+      const key = tag('span', 'key', series.name ? caption : document.createDocumentFragment());
       const swatch = tag('i', series.look, key);
       if (['setpoint', 'limit'].includes(series.look)) swatch.classList.add('dashed');
       key.appendChild(document.createTextNode(series.name));
@@ -317,7 +317,7 @@ class MapView {
       this.symbol(group, place.kind, px, py);
       if (place.kind === 'takeoff') shape('text', {x: px, y: py - 12, 'text-anchor': 'middle', class: 'label'}, group, 'take-off');
       if (place.kind === 'landing') shape('text', {x: px, y: py + 21, 'text-anchor': 'middle', class: 'label'}, group, 'landing');
-      if (place.kind === 'waypoint') shape('text', {x: px + 10, y: py - 6, class: 'label'}, group, place.label);
+      if (place.kind === 'waypoint') shape('text', {x: px + 9, y: py + 4, class: 'label'}, group, place.label);
     }
   }
   symbol(parent, kind, x, y) {

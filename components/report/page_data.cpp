@@ -16,7 +16,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-constexpr double kMapMargin = 0.4;  // around what is drawn [m]
+constexpr double kSamePlace = 0.05;  // [m]
+constexpr double kMapMargin = 0.4;   // around what is drawn [m]
 /// Later than this a clock counts from 1970, and the page can say the time of day [ns].
 constexpr mcap::Timestamp kYear2000 = 946'684'800'000'000'000;
 
@@ -55,6 +56,17 @@ json packed(const Track& track) {
   return {{"t", t}, {"x", x}, {"y", y}, {"b", json::array()}};
 }
 
+/// Goals that are not a waypoint, which is drawn already.
+std::vector<Place> goals_beside(const std::vector<Place>& waypoints, std::vector<Place> goals) {
+  const auto is_waypoint = [&waypoints](const Place& goal) {
+    return std::any_of(waypoints.begin(), waypoints.end(), [&goal](const Place& waypoint) {
+      return (waypoint.position - goal.position).norm() < kSamePlace;
+    });
+  };
+  goals.erase(std::remove_if(goals.begin(), goals.end(), is_waypoint), goals.end());
+  return goals;
+}
+
 json corner(const Eigen::Vector2d& position) {
   return {rounded(position.x(), 4), rounded(position.y(), 4)};
 }
@@ -74,7 +86,7 @@ json map_data(const FlightStory& story, const std::optional<MapPicture>& picture
                         {"label", place.label}});
     }
   };
-  add(map.goals, "goal");
+  add(goals_beside(map.waypoints, map.goals), "goal");
   add(map.guard_acts, "guard");
   add(map.contacts, "contact");
   add(map.takeoffs, "takeoff");
@@ -179,8 +191,8 @@ std::vector<TimePlot> plots_of(const FlightStory& story) {
                      2,
                      2.0,
                      {{"mean", "estimate", &consistency.value},
-                      {"95 % from", "limit", &consistency.low},
-                      {"to", "limit", &consistency.high}}});
+                      {"95 % bounds", "limit", &consistency.low},
+                      {"", "limit", &consistency.high}}});
   }
   return plots;
 }

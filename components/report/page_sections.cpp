@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "components/bag/bag_info.hpp"
@@ -101,14 +102,15 @@ std::string modes_flown(const FlightStory& story) {
 
 std::string header_html(const FlightStory& story) {
   const RecordingFacts& facts = story.recording;
-  std::string when = fmt::format("Recorded from {}, {} long", moment_text(facts.begin),
-                                 duration_text(facts.duration));
+  const std::string name =
+      facts.files.size() == 1 ? std::filesystem::path(facts.name).filename().string() : facts.name;
+  std::string when = fmt::format("{} long, from {} on the clock of the run",
+                                 duration_text(facts.duration), moment_text(facts.begin));
   if (!facts.vehicle.empty()) when += ", vehicle " + facts.vehicle;
   std::string out = fmt::format(
       "<header><p class=\"over\">Flight report</p>\n<h1>{}</h1>\n<p class=\"when\">{}</p>\n"
       "<p class=\"outcome {}\">{}</p>\n",
-      escaped(facts.name), escaped(when), class_of(story.outcome.level),
-      escaped(story.outcome.text));
+      escaped(name), escaped(when), class_of(story.outcome.level), escaped(story.outcome.text));
   if (!story.modes.empty()) {
     out += fmt::format("<p class=\"when\">Modes: {}</p>\n", escaped(modes_flown(story)));
   }

@@ -179,6 +179,11 @@ class StoryReader {
       const auto schema = recording_.schemas().find(channel.schema_id);
       const std::string type = schema == recording_.schemas().end() ? "" : schema->second.name;
       watches_.try_emplace(*topic, *topic, type);
+      const auto& counts = recording_.statistics().channel_message_counts;
+      const auto count = counts.find(id);
+      if (*topic == topic::vehicle_status.name && count != counts.end() && count->second > 0) {
+        decisions_.expect_modes();
+      }
     }
   }
 
