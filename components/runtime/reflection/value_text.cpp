@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "components/runtime/utf8.hpp"
+
 namespace swiftlet {
 namespace {
 
@@ -46,11 +48,9 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Where a text may be cut without cutting a character of UTF-8.
 std::string cut(const std::string& text, std::size_t longest) {
   if (longest == 0 || text.size() <= longest) return text;
-  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xC0U) == 0x80U) --longest;
-  return text.substr(0, longest) + "...";
+  return text.substr(0, utf8_cut(text, longest)) + "...";
 }
 
 std::string scalar_text(const Value& value, std::size_t longest) {
