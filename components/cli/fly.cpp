@@ -46,6 +46,7 @@ int fly(const FlyOptions& options) {
   if (options.seed) scenario.seed = static_cast<std::uint64_t>(*options.seed);
   Config parameters = options.parameters.load();
   parameters.set("sim.scenario", options.scenario);
+  if (scenario.claw) parameters.set("sim_claw.scenario", options.scenario);
   parameters.set("sim.seed", std::to_string(scenario.seed));
   if (!parameters.child("planner").has("seed")) {
     parameters.set("planner.seed", std::to_string(scenario.seed));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "components/cli/verbs.hpp"
+#include "components/launch/system_file.hpp"
 #include "components/runtime/command_line.hpp"
 #include "components/runtime/execution/real_time.hpp"
 
@@ -52,10 +53,9 @@ int run(const RunOptions& options) {
   Host host(host_options);
   for (const std::string& name : options.components) {
     // One scenario for all who need one.
-    const bool needs_scenario = name == "sim" || name == "pilot";
-    if (needs_scenario && !options.scenario.empty()) {
+    if (reads_scenario(name) && !options.scenario.empty()) {
       parameters.set(name + ".scenario", options.scenario);
-    } else if (needs_scenario && !parameters.child(name).has("scenario")) {
+    } else if (reads_scenario(name) && !parameters.child(name).has("scenario")) {
       throw ConfigError(fmt::format("'{}' needs a scenario; add --scenario FILE", name));
     }
     host.add(name, parameters.child(name));
@@ -72,7 +72,8 @@ void add_run(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("run", "Host components on this machine");
   verb->add_option("components", options->components, "See: swiftlet component list --available")
       ->required();
-  verb->add_option("--scenario", options->scenario, "Scenario file of the simulator and the pilot");
+  verb->add_option("--scenario", options->scenario,
+                   "Scenario file of the simulators and the pilot");
   verb->add_option(
           "--standby", options->standby,
           "Place in the line of succession: 0 comes first; 1 and above wait, hear everything "

@@ -125,8 +125,7 @@ HostSpec read_host(const Config& section, const NetworkConfig& network) {
 }
 
 bool needs_scenario(const ProcessSpec& process) {
-  return std::any_of(process.components.begin(), process.components.end(),
-                     [](const std::string& name) { return name == "sim" || name == "pilot"; });
+  return std::any_of(process.components.begin(), process.components.end(), reads_scenario);
 }
 
 std::string this_machine() {
@@ -136,6 +135,10 @@ std::string this_machine() {
 }
 
 }  // namespace
+
+bool reads_scenario(const std::string& component) {
+  return component == "sim" || component == "sim_claw" || component == "pilot";
+}
 
 SystemFile SystemFile::load(const std::filesystem::path& file) {
   const Config config = Config::load(file);

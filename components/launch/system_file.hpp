@@ -43,12 +43,15 @@ struct HostSpec {
   std::optional<DiscoveryServerSpec> discovery_server;
 };
 
+/// Whether a component is given the scenario of the run.
+bool reads_scenario(const std::string& component);
+
 /// What `swiftlet launch` reads: which processes run on which host, with which network.
 struct SystemFile {
   std::filesystem::path file;
   std::optional<int> domain;  ///< not given: ROS_DOMAIN_ID, else 0
   std::string vehicle;
-  std::filesystem::path scenario;  ///< for sim and pilot; empty where none is needed
+  std::filesystem::path scenario;  ///< for the simulators and the pilot; empty where none is needed
   bool has_parameters = false;
   bool stop_on_failure = true;  ///< a process that is given up ends the launch
   double stop_timeout = 5.0;    ///< for a process to end when it is asked to [s]

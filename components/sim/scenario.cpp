@@ -118,6 +118,7 @@ Scenario Scenario::read(const Config& config) {
   read_mission(config.child("mission"), scenario.mission);
   read_obstacles(config, scenario.obstacles);
   read_pushes(config, scenario.pushes);
+  if (config.has("claw")) read_claw(config.child("claw"), scenario.claw.emplace());
   config.read("time_limit_s", scenario.time_limit_s, kPositive);
   read_map(config.child("map"), scenario.map);
   config.finish();
@@ -134,6 +135,7 @@ std::vector<std::string> components_of(const Scenario& scenario) {
   std::vector<std::string> names{"sim",     "estimator", "flight_controller", "lidar_mapper",
                                  "planner", "guard",     "commander"};
   if (scenario.mission.explore) names.emplace_back("explorer");
+  if (scenario.claw) names.insert(names.end(), {"sim_claw", "claw"});
   return names;
 }
 

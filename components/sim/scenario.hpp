@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/runtime/config/config.hpp"
+#include "components/sim/claw_servo.hpp"
 #include "components/sim/quadrotor.hpp"
 #include "components/sim/sensors/battery.hpp"
 #include "components/sim/sensors/gps.hpp"
@@ -87,6 +88,7 @@ struct Scenario {
   Mission mission;
   std::vector<Obstacle> obstacles;
   std::vector<Push> pushes;
+  std::optional<ClawServo::Params> claw;  ///< where the vehicle has one
   double time_limit_s = 300.0;
   MapBounds map;
 

@@ -124,4 +124,23 @@ void read_sensors(const Config& config, Scenario::Sensors& sensors) {
   read_gps(config.child("gps"), sensors.gps);
 }
 
+void read_claw(const Config& config, ClawServo::Params& claw) {
+  config.read("pulse_open_us", claw.pulse_open_us, {400.0, 2600.0});
+  config.read("pulse_closed_us", claw.pulse_closed_us, {400.0, 2600.0});
+  if (claw.pulse_open_us == claw.pulse_closed_us) {
+    config.fail("pulse_closed_us", "'pulse_closed_us' must be another than 'pulse_open_us'");
+  }
+  config.read("max_speed_us", claw.max_speed_us, kPositive);
+  config.read("time_constant", claw.time_constant, kPositive);
+  config.read("object", claw.object);
+  config.read("object_opening", claw.object_opening, kProbability);
+  config.read("jammed", claw.jammed);
+  config.read("start_opening", claw.start_opening, kProbability);
+  if (claw.object && claw.start_opening < claw.object_opening) {
+    config.fail("start_opening",
+                "the object is between the jaws, which cannot be narrower: raise "
+                "'start_opening' or lower 'object_opening'");
+  }
+}
+
 }  // namespace swiftlet

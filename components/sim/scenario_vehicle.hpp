@@ -11,5 +11,6 @@ namespace swiftlet {
 /// defaults that are there, and throws ConfigError.
 void read_vehicle(const Config& config, Quadrotor::Params& params);
 void read_sensors(const Config& config, Scenario::Sensors& sensors);
+void read_claw(const Config& config, ClawServo::Params& claw);
 
 }  // namespace swiftlet

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/sim/scenario.hpp"
 
+#include <algorithm>
+
 #include "tests/components/sim/fixture.hpp"
 
 namespace swiftlet {
@@ -51,6 +53,7 @@ mission:
 obstacles:
   - {name: door, position: [1, 2, 3], size: [1, 0.1, 2], appears_at_s: 5, disappears_at_s: 9}
 pushes: [{at_s: 12, duration_s: 0.5, force: [0, 0, -3]}]
+claw: {object: true, object_opening: 0.3}
 time_limit_s: 60
 map: {min: [-1, -2], max: [3, 4], resolution: 0.1}
 )");
@@ -78,6 +81,18 @@ map: {min: [-1, -2], max: [3, 4], resolution: 0.1}
   ASSERT_EQ(scenario.pushes.size(), 1U);
   EXPECT_EQ(scenario.pushes[0].force, Eigen::Vector3d(0, 0, -3));
   EXPECT_EQ(scenario.map.max, Eigen::Vector2d(3, 4));
+  ASSERT_TRUE(scenario.claw.has_value());
+  EXPECT_TRUE(scenario.claw->object);
+  EXPECT_EQ(scenario.claw->object_opening, 0.3);
+}
+
+TEST_F(ScenarioFile, AClawIsFlownByTwoComponentsMore) {
+  const auto names = components_of(load(""));
+  EXPECT_EQ(std::count(names.begin(), names.end(), "claw"), 0);
+  const auto with_claw = components_of(load("claw: {}"));
+  EXPECT_EQ(with_claw.size(), names.size() + 2);
+  EXPECT_EQ(std::count(with_claw.begin(), with_claw.end(), "sim_claw"), 1);
+  EXPECT_EQ(std::count(with_claw.begin(), with_claw.end(), "claw"), 1);
 }
 
 TEST_F(ScenarioFile, AMissingFileOrWorldIsNamed) {
@@ -122,6 +137,9 @@ TEST_F(ScenarioFile, BadInputIsRefusedWithItsLineAndARemedy) {
       {"pushes: [{at_s: 1, force: [1, 0, 0]}]", {"s.yaml:3", "'duration_s' is missing"}},
       {"map: {min: [0, 0], max: [1, -1]}", {"s.yaml:3", "more than 'min'"}},
       {"map: {min: [0, 0], max: [9999, 9999], resolution: 0.01}", {"s.yaml:3", "coarser"}},
+      {"claw: {objekt: true}", {"s.yaml:3", "'objekt'", "'object'"}},
+      {"claw: {object: true, start_opening: 0.1}", {"s.yaml:3", "between the jaws"}},
+      {"claw: {pulse_open_us: 2000}", {"s.yaml:3", "another than 'pulse_open_us'"}},
       {"time_limit_s: soon", {"s.yaml:3", "'time_limit_s' must be a number"}},
   };
   for (const auto& [content, parts] : cases) {
