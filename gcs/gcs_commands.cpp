@@ -14,6 +14,7 @@
 
 #include "components/runtime/command_line.hpp"
 #include "gcs/command_client.hpp"
+#include "gcs/screen/shell/screen_command.hpp"
 #include "gcs/status_view.hpp"
 #include "gcs/stick_client.hpp"
 
@@ -134,8 +135,9 @@ void add_stick(CLI::App& gcs, const Network& network) {
 }  // namespace
 
 void add_gcs_commands(CLI::App& gcs) {
-  gcs.require_subcommand(1);
+  gcs.require_subcommand(0, 1);
   const auto network = std::make_shared<NetworkOptions>();
+  add_screen(gcs, network);
   add_simple(gcs, network, "arm", "Let the rotors turn", command::ARM);
   add_simple(gcs, network, "disarm", "Stop the rotors, on the ground", command::DISARM);
   add_simple(gcs, network, "land", "Descend here until the ground is felt", command::LAND);

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+// What the vehicle is and does: the header, and how it flies.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "estimation/geometry/so3.hpp"
+#include "gcs/screen/drawing/horizon.hpp"
+#include "gcs/screen/drawing/widgets.hpp"
+#include "gcs/screen/panels.hpp"
+
+namespace swiftlet::screen {
+namespace {
+
+/// A panel's rows of a name and a value.
+constexpr int kLabel = 9;
+constexpr int kMostRows = 7;
+
+double degrees(double radians) {
+  return radians * 180.0 / M_PI;
+}
+
+/// A name and a value; one that is stale is dim, with its age where there is room.
+template <class T>
+void row(const Pane& pane, int y, const char* label, const std::string& value,
+         const Heard<T>& source, Time now) {
+  pane.text(0, y, label, kDim);
+  if (!source.known()) {
+    pane.text(kLabel, y, "?", kDim);
+    return;
+  }
+  const bool fresh = source.fresh(now);
+  const int end = pane.text(kLabel, y, value, fresh ? kPlain : kDim);
+  if (fresh) return;
+  const std::string age = age_text(source.age(now));
+  if (end + 1 + columns_of(age) <= pane.width()) {
+    pane.text_before(pane.width(), y, age, kWarning);
+  }
+}
+
+const char* direction(double yaw) {
+  constexpr const char* kNames[] = {"E", "NE", "N", "NW", "W", "SW", "S", "SE"};
+  const double eighths = std::round(yaw / (0.25 * M_PI));
+  return std::isfinite(eighths) ? kNames[(static_cast<int>(std::fmod(eighths, 8.0)) + 8) % 8] : "";
+}
+
+std::string mission_text(const VehicleReport& report) {
+  if (report.waypoint_count == 0) return "none";
+  if (report.mission_done)
+    return fmt::format("{} of {}, done", report.waypoint_count, report.waypoint_count);
+  return fmt::format("to {} of {}", report.waypoint, report.waypoint_count);
+}
+
+Style battery_style(double share) {
+  if (share <= 0.2) return kAlarm;
+  return share <= 0.3 ? kWarning : kGood;
+}
+
+void paint_battery(const Pane& pane, const GroundStationModel& model, Time now) {
+  const int end = pane.width() - 1;
+  const auto& battery = model.battery();
+  if (!battery.known()) {
+    pane.text_before(end, 0, "battery ?", kDim);
+    return;
+  }
+  const bool fresh = battery.fresh(now);
+  const std::string left =
+      fresh ? time_left_text(model.battery_seconds_left()) : age_text(battery.age(now)) + " ago";
+  std::string text = fmt::format("{:.0f} % {}", battery->percentage * 100.0, left);
+  if (pane.width() >= 100)
+    text = fmt::format("{:.1f} V {:.1f} A  ", battery->voltage, battery->current) + text + " left";
+  const Style style = fresh ? battery_style(battery->percentage) : kDim;
+  pane.text_before(end, 0, text, style);
+  const int bar = pane.width() >= 80 ? 8 : 0;
+  const int before = end - columns_of(text) - 1;
+  draw_bar(pane, before - bar, 0, bar, battery->percentage, style);
+  if (pane.width() >= 80) pane.text_before(before - bar - 1, 0, "battery", kDim);
+}
+
+}  // namespace
+
+std::string age_text(Duration age) {
+  const double seconds = to_seconds(age);
+  if (seconds < 9.95) return fmt::format("{:.1f} s", std::max(seconds, 0.0));
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  return fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+std::string time_left_text(std::optional<double> seconds) {
+  if (!seconds) return "?";
+  if (*seconds < 99.5) return fmt::format("{:.0f} s", *seconds);
+  if (*seconds > 99.0 * 60.0) return "> 99 min";
+  return fmt::format("{:.0f} min", *seconds / 60.0);
+}
+
+void paint_header(const Pane& pane, const GroundStationModel& model, Time now) {
+  const auto& vehicle = model.vehicle();
+  paint_battery(pane, model, now);
+  if (!vehicle.known()) {
+    pane.text(1, 0, "no vehicle heard yet", kWarning);
+    return;
+  }
+  const bool fresh = vehicle.fresh(now);
+  int x = pane.text(1, 0, vehicle->mode, fresh ? kBold : kDim);
+  const Style armed = vehicle->armed ? Style{Hue::kRed, true, false, false} : kGood;
+  x = pane.text(x + 2, 0, vehicle->armed ? "ARMED" : "disarmed", fresh ? armed : kDim);
+  if (fresh) {
+    x = pane.text(x + 2, 0, "link ", kDim);
+    x = pane.text(x, 0, age_text(vehicle.age(now)), kGood);
+    if (pane.width() >= 100) {
+      pane.text(x + 1, 0, fmt::format("{} reports/s", model.reports_per_s(now)), kDim);
+    }
+  } else {
+    constexpr Style lost{Hue::kRed, true, false, true};
+    pane.text(x + 2, 0, " LINK LOST " + age_text(vehicle.age(now)) + " ", lost);
+  }
+}
+
+void paint_flight(const Pane& pane, const GroundStationModel& model, Time now) {
+  const int horizon = std::max(3, std::min(pane.height() - kMostRows + 1, 13));
+  const Pane attitude = pane.part({0, 0, pane.width(), horizon});
+  const auto& pose = model.pose();
+  if (pose.known()) {
+    const bool fresh = pose.fresh(now);
+    draw_horizon(attitude, pose->q_WB, fresh ? Style{Hue::kCyan} : kDim);
+    if (!fresh) {
+      attitude.text(1, horizon - 1, " stale: " + age_text(pose.age(now)) + " ", kWarning);
+    }
+  } else {
+    attitude.text(1, horizon / 2, "attitude not known", kDim);
+  }
+  const auto& vehicle = model.vehicle();
+  int y = horizon;
+  const auto when = [](bool known, auto text) { return known ? text() : std::string(); };
+  row(pane, y++, "height",
+      when(vehicle.known() && pose.known(),
+           [&] { return fmt::format("{:.2f} m {:+.1f}", vehicle->height, pose->v_WB_W.z()); }),
+      vehicle, now);
+  row(pane, y++, "speed",
+      when(pose.known(), [&] { return fmt::format("{:.2f} m/s", pose->v_WB_W.head<2>().norm()); }),
+      pose, now);
+  row(pane, y++, "position",
+      when(pose.known(),
+           [&] { return fmt::format("{:.2f} {:.2f}", pose->p_WB.x(), pose->p_WB.y()); }),
+      pose, now);
+  row(pane, y++, "heading",
+      when(pose.known(),
+           [&] {
+             const double yaw = yaw_of(pose->q_WB);
+             return fmt::format("{}° {}", std::lround(degrees(yaw)), direction(yaw));
+           }),
+      pose, now);
+  const auto& fix = model.fix();
+  const bool has_fix = fix.known() && fix->has_value();
+  // Its name is shorter, since a place on Earth needs the room.
+  pane.text(0, y, "GPS", kDim);
+  const std::string place = has_fix
+                                ? fmt::format("{:.5f} {:.5f}", (*fix)->latitude, (*fix)->longitude)
+                                : std::string(fix.known() ? "no fix" : "none");
+  pane.text(has_fix ? 4 : kLabel, y++, place, fix.fresh(now) ? kPlain : kDim);
+  row(pane, y, "mission", when(vehicle.known(), [&] { return mission_text(*vehicle); }), vehicle,
+      now);
+}
+
+}  // namespace swiftlet::screen

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/screen/panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "gcs/screen/drawing/widgets.hpp"
+
+namespace swiftlet::screen {
+namespace {
+
+std::string clock_text(Time time) {
+  const auto seconds = static_cast<std::time_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count());
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+/// Lines of a text in one style.
+void append(std::vector<Line>& lines, const std::string& text, int columns, Style style) {
+  for (const std::string& line : wrap(text, columns)) lines.push_back({line, style});
+}
+
+std::string kilobytes(double bytes) {
+  return fmt::format("{:.1f}", bytes / 1000.0);
+}
+
+}  // namespace
+
+Style style_of(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return kPlain;
+    case Severity::kSuccess:
+      return kGood;
+    case Severity::kCaution:
+      return kWarning;
+    case Severity::kDanger:
+      return kAlarm;
+  }
+  return kPlain;
+}
+
+void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
+  std::vector<Line> lines;
+  const auto& vehicle = model.vehicle();
+  if (!vehicle.known()) {
+    append(lines, "is a commander running, and is --vehicle right?", pane.width(), kDim);
+  } else if (!vehicle.fresh(now)) {
+    append(lines, "not known: nothing heard for " + age_text(vehicle.age(now)), pane.width(),
+           kWarning);
+  } else {
+    const std::vector<std::string> problems = model.problems(now);
+    for (const std::string& problem : problems) append(lines, problem, pane.width(), kWarning);
+    if (problems.empty()) {
+      lines.push_back({vehicle->armed || !vehicle->ready ? "all well" : "ready to arm", kGood});
+    }
+    lines.push_back({fmt::format("{} components", model.components().size()), kDim});
+    if (model.guard().fresh(now) && !model.guard()->acting) {
+      lines.push_back({"guard watches", kDim});
+    }
+  }
+  draw_list(pane, lines, 0);
+}
+
+void paint_link(const Pane& pane, const GroundStationModel& model, Time now) {
+  const auto& link = model.link();
+  if (!link.known()) {
+    pane.text(0, 0, "no ground_link: no budget", kDim);
+    return;
+  }
+  const Style style = link.fresh(now) ? kPlain : kDim;
+  pane.text(0, 0,
+            fmt::format("{} of {} kB/s", kilobytes(link->bytes_per_s),
+                        kilobytes(link->budget_bytes_per_s)),
+            style);
+  draw_bar(pane, 0, 1, pane.width(), link->bytes_per_s / link->budget_bytes_per_s, style);
+  for (std::size_t i = 0; i < link->topics.size(); ++i) {
+    const TopicShare& share = link->topics[i];
+    const int y = 2 + static_cast<int>(i);
+    pane.text(0, y, share.topic, share.thinned ? kWarning : style, pane.width() - 7);
+    pane.text_before(pane.width(), y, kilobytes(share.bytes_per_s), style);
+  }
+}
+
+void paint_events(const Pane& pane, const EventLog& log) {
+  constexpr int kClock = 9;
+  std::vector<Line> lines;
+  // Only those that can be seen, from the newest on.
+  for (auto event = log.events().rbegin(); event != log.events().rend(); ++event) {
+    if (static_cast<int>(lines.size()) >= pane.height()) break;
+    std::string text = event->text;
+    if (event->times > 1) text += fmt::format(" ×{}", event->times);
+    const std::vector<std::string> wrapped = wrap(text, pane.width() - kClock);
+    for (std::size_t i = wrapped.size(); i-- > 0;) {
+      const std::string before = i == 0 ? clock_text(event->time) + " " : std::string(kClock, ' ');
+      lines.push_back({before + wrapped[i], style_of(event->severity)});
+    }
+  }
+  std::reverse(lines.begin(), lines.end());
+  draw_tail(pane, lines);
+}
+
+void paint_waypoints(const Pane& pane, const Controller& controller) {
+  const WaypointList& list = controller.waypoints();
+  const bool edits = controller.keyboard() == Keyboard::kWaypoints ||
+                     controller.keyboard_below() == Keyboard::kWaypoints;
+  if (list.empty()) {
+    const auto lines =
+        wrap(edits ? "move the cursor with the arrows, then a: add" : "none; w puts some together",
+             pane.width());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      pane.text(0, static_cast<int>(i), lines[i], kDim);
+    }
+    return;
+  }
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < list.items().size(); ++i) {
+    const Eigen::Vector3d& p = list.items()[i].position;
+    const bool selected = edits && static_cast<int>(i) == list.selected();
+    lines.push_back({fmt::format("{:>3} {:6.2f} {:6.2f} {:4.1f}", i + 1, p.x(), p.y(), p.z()),
+                     selected ? kInverse : kPlain});
+  }
+  draw_list(pane, lines, list.selected());
+}
+
+void paint_parameters(const Pane& pane, const ParameterList& list) {
+  std::vector<Line> lines;
+  for (int i = 0; i < list.size(); ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    std::string text;
+    Style style;
+    if (list.component.empty()) {
+      text = list.components[index];
+    } else {
+      const ParameterEntry& entry = list.entries[index];
+      text = fmt::format("{:28} {:14} {}", entry.name, entry.value, entry.limits);
+      style.dim = !entry.live;
+    }
+    style.inverse = i == list.selected;
+    lines.push_back({text, style});
+  }
+  if (lines.empty()) {
+    lines.push_back({list.component.empty() ? "nobody here has parameters" : "asking...", kDim});
+  }
+  draw_list(pane, lines, list.selected);
+}
+
+}  // namespace swiftlet::screen

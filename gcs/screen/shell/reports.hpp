@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "components/topics.hpp"
+#include "gcs/screen/state/ground_station_model.hpp"
+
+/// Between messages and what the screen's model has.
+namespace swiftlet::screen {
+
+VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
+BatteryReport report_of(const sensor_msgs::msg::BatteryState& battery);
+std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix);
+/// Nothing where it is not that of a ground link.
+std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics);
+std::shared_ptr<const GridMap> map_of(const nav_msgs::msg::OccupancyGrid& map);
+std::vector<Eigen::Vector2d> places_of(const nav_msgs::msg::Path& path);
+
+}  // namespace swiftlet::screen

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/geodesy/local_origin.hpp"
+#include "estimation/geometry/rigid_body.hpp"
+#include "gcs/screen/drawing/map_picture.hpp"
+#include "gcs/screen/state/battery_clock.hpp"
+#include "gcs/screen/state/event_log.hpp"
+#include "gcs/screen/state/heard.hpp"
+
+namespace swiftlet::screen {
+
+/// What the vehicle says of itself ten times a second.
+struct VehicleReport {
+  std::string mode;
+  bool in_flight = false;
+  bool navigates = false;  ///< along a path
+  bool armed = false;
+  bool ready = false;      ///< may be armed
+  std::string reason;      ///< of the last change of mode, or why not ready
+  double height = 0.0;     ///< above the take-off point [m]
+  int waypoint = 0;        ///< that is flown to, from 1; 0 without a mission
+  int waypoint_count = 0;  ///<
+  bool mission_done = false;
+  Eigen::Vector2d takeoff_point = Eigen::Vector2d::Zero();  ///< in the map [m]
+};
+
+struct GuardReport {
+  bool acting = false;
+  std::string reason;
+};
+
+struct ComponentReport {
+  std::vector<std::string> problems;
+};
+
+/// A topic's share of the radio link.
+struct TopicShare {
+  std::string topic;
+  double bytes_per_s = 0.0;
+  bool thinned = false;  ///< for want of budget
+};
+struct LinkReport {
+  double bytes_per_s = 0.0;
+  double budget_bytes_per_s = 0.0;
+  std::vector<TopicShare> topics;
+};
+
+/// The command that was given last, and what became of it.
+struct CommandNote {
+  std::string text;
+  Severity severity = Severity::kNote;
+};
+
+/// All that a ground station knows of a vehicle, from what it hears and when. Knows no middleware,
+/// no clock, and no screen. What happens is noted in the log. Its memory is bounded.
+class GroundStationModel {
+ public:
+  static constexpr std::size_t kLongestTrail = 2000;
+  static constexpr double kTrailStep = 0.1;  ///< [m]
+  /// What a component lacks is noted when it lasts.
+  static constexpr Duration kLasting = std::chrono::milliseconds(500);
+  /// Batteries speak up to once a second.
+  static constexpr Duration kBatteryStale = std::chrono::milliseconds(2500);
+
+  void hear(const VehicleReport& report, Time now);
+  void hear(const RigidBodyState& state, Time now);
+  void hear(const BatteryReport& report, Time now);
+  /// Nothing: a receiver without a fix.
+  void hear(const std::optional<GlobalPosition>& fix, Time now);
+  void hear(const GuardReport& report, Time now);
+  void hear(const LinkReport& report, Time now);
+  void hear_component(const std::string& name, const ComponentReport& report, Time now);
+  void hear_map(std::shared_ptr<const GridMap> map, Time now);
+  void hear_path(std::vector<Eigen::Vector2d> path, Time now);
+  /// Notes what has fallen silent. Many times a second.
+  void tick(Time now);
+
+  void note(Time now, Severity severity, const std::string& text) { log_.add(now, severity, text); }
+  void set_command(CommandNote note) { command_ = std::move(note); }
+
+  const Heard<VehicleReport>& vehicle() const { return vehicle_; }
+  const Heard<RigidBodyState>& pose() const { return pose_; }
+  const Heard<BatteryReport>& battery() const { return battery_; }
+  std::optional<double> battery_seconds_left() const { return battery_clock_.seconds_left(); }
+  const Heard<std::optional<GlobalPosition>>& fix() const { return fix_; }
+  const Heard<GuardReport>& guard() const { return guard_; }
+  const Heard<LinkReport>& link() const { return link_; }
+  const std::map<std::string, Heard<ComponentReport>>& components() const { return components_; }
+  const std::shared_ptr<const GridMap>& map() const { return map_; }
+  /// Of what is known of the map.
+  const std::optional<Extent>& map_extent() const { return extent_; }
+  const Heard<std::vector<Eigen::Vector2d>>& path() const { return path_; }
+  const std::deque<Eigen::Vector2d>& trail() const { return trail_; }
+  const EventLog& log() const { return log_; }
+  const CommandNote& command() const { return command_; }
+  /// Reports of the vehicle in the last second.
+  int reports_per_s(Time now) const;
+  /// What is wrong right now, the worst first; empty where all is well.
+  std::vector<std::string> problems(Time now) const;
+
+ private:
+  void look_at(const std::string& name, const Heard<ComponentReport>& component, Time now);
+  void note_changes(const VehicleReport& before, const VehicleReport& after, Time now);
+
+  Heard<VehicleReport> vehicle_;
+  Heard<RigidBodyState> pose_;
+  Heard<BatteryReport> battery_{kBatteryStale};
+  BatteryClock battery_clock_;
+  Heard<std::optional<GlobalPosition>> fix_;
+  Heard<GuardReport> guard_;
+  Heard<LinkReport> link_{kBatteryStale};
+  std::map<std::string, Heard<ComponentReport>> components_;
+  struct Problem {
+    std::string text;    // "" where it is well
+    Time since{};        //
+    bool noted = false;  // in the log
+  };
+  std::map<std::string, Problem> component_problems_;
+  std::shared_ptr<const GridMap> map_;
+  std::optional<Extent> extent_;
+  Heard<std::vector<Eigen::Vector2d>> path_;
+  std::deque<Eigen::Vector2d> trail_;
+  std::deque<Time> reports_;
+  EventLog log_;
+  CommandNote command_;
+  bool link_lost_ = false;
+};
+
+}  // namespace swiftlet::screen

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "gcs/screen/state/controller.hpp"
+
+namespace swiftlet::screen {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using Kind = Action::Kind;
+
+const Time kBegin(1000s);
+
+class ControllerTest : public testing::Test {
+ protected:
+  ControllerTest() {
+    circumstances.now = kBegin;
+    circumstances.vehicle = Eigen::Vector3d(1.0, 2.0, 1.5);
+    circumstances.in_flight = true;
+    circumstances.components = {"estimator", "planner"};
+  }
+
+  std::vector<Kind> press(KeyCode key) {
+    std::vector<Kind> kinds;
+    for (const Action& action : controller.press(key, circumstances)) {
+      kinds.push_back(action.kind);
+      last = action;
+    }
+    return kinds;
+  }
+  std::vector<Kind> press(const std::string& keys) {
+    std::vector<Kind> kinds;
+    for (const char c : keys) {
+      for (const Kind kind : press(key_code(static_cast<unsigned char>(c)))) kinds.push_back(kind);
+    }
+    return kinds;
+  }
+
+  Controller controller;
+  Circumstances circumstances;
+  Action last;
+};
+
+TEST_F(ControllerTest, CommandsThatMustNotWaitAreOneKey) {
+  EXPECT_THAT(press("l"), ElementsAre(Kind::kLand));
+  EXPECT_THAT(press("h"), ElementsAre(Kind::kHover));
+  EXPECT_THAT(press(" "), ElementsAre(Kind::kHover));
+  EXPECT_THAT(press("r"), ElementsAre(Kind::kReturn));
+  EXPECT_THAT(press("e"), ElementsAre(Kind::kExplore));
+  EXPECT_THAT(press("d"), ElementsAre(Kind::kDisarm));
+}
+
+TEST_F(ControllerTest, ArmingAsksFirst) {
+  EXPECT_THAT(press("a"), IsEmpty());
+  EXPECT_EQ(controller.keyboard(), Keyboard::kConfirm);
+  EXPECT_THAT(press("lx"), IsEmpty()) << "only the answer counts";
+  EXPECT_THAT(press("n"), IsEmpty());
+  EXPECT_THAT(press("ay"), ElementsAre(Kind::kArm));
+  EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
+}
+
+TEST_F(ControllerTest, TakeoffAsksHowHigh) {
+  EXPECT_THAT(press("t"), IsEmpty());
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kTakeoff));
+  EXPECT_EQ(last.altitude, kUsualAltitude);
+  press("t");
+  for (int i = 0; i < 5; ++i) press(KeyCode::kBackspace);
+  EXPECT_THAT(press(KeyCode::kEnter), IsEmpty()) << "nothing is no height";
+  press("2.5x");
+  EXPECT_THAT(press(KeyCode::kEnter), IsEmpty());
+  press(KeyCode::kBackspace);
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kTakeoff));
+  EXPECT_EQ(last.altitude, 2.5);
+  press("t9");
+  EXPECT_THAT(press(KeyCode::kEscape), IsEmpty());
+  EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
+}
+
+TEST_F(ControllerTest, QuittingAsksOnlyInFlight) {
+  EXPECT_THAT(press("q"), IsEmpty());
+  EXPECT_THAT(press("y"), ElementsAre(Kind::kQuit));
+  circumstances.in_flight = false;
+  EXPECT_THAT(press("q"), ElementsAre(Kind::kQuit));
+}
+
+TEST_F(ControllerTest, TheCursorBeginsAtTheVehicleAndFliesThere) {
+  press("g");
+  ASSERT_TRUE(controller.cursor());
+  EXPECT_TRUE(controller.cursor()->isApprox(Eigen::Vector2d(1.0, 2.0)));
+  const double step = controller.camera().cursor_step();
+  for (int i = 0; i < 3; ++i) press(KeyCode::kRight);
+  press(KeyCode::kUp);
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kMission));
+  ASSERT_EQ(last.waypoints.size(), 1u);
+  EXPECT_TRUE(last.waypoints[0].position.isApprox(Eigen::Vector3d(1.0 + 3 * step, 2.0 + step, 1.5)))
+      << "at the height that it has";
+  EXPECT_FALSE(controller.cursor());
+  press("g");
+  press(KeyCode::kRight);
+  EXPECT_THAT(press(KeyCode::kEscape), IsEmpty());
+}
+
+TEST_F(ControllerTest, WaypointsAreEditedInPlaceAndFlownAsOneMission) {
+  const auto east_of = [&](std::size_t i) {
+    return controller.waypoints().items().at(i).position.x();
+  };
+  press("w");
+  EXPECT_THAT(press("s"), IsEmpty()) << "nothing to fly";
+  const double step = controller.camera().cursor_step();
+  for (int i = 0; i < 3; ++i) {
+    press("a");
+    press(KeyCode::kRight);
+  }
+  ASSERT_EQ(controller.waypoints().items().size(), 3u);
+  EXPECT_EQ(controller.waypoints().selected(), 2);
+  press("[");  // 0 2 1
+  EXPECT_NEAR(east_of(1), 1.0 + 2 * step, 1e-9);
+  press("]");  // 0 1 2
+  EXPECT_NEAR(east_of(2), 1.0 + 2 * step, 1e-9);
+  press("bbi");  // in front of the first
+  ASSERT_EQ(controller.waypoints().items().size(), 4u);
+  EXPECT_NEAR(east_of(0), 1.0 + 3 * step, 1e-9);
+  EXPECT_EQ(controller.waypoints().selected(), 0);
+  press("nx");  // without the second
+  ASSERT_EQ(controller.waypoints().items().size(), 3u);
+  EXPECT_NEAR(east_of(1), 1.0 + step, 1e-9);
+  press(KeyCode::kUp);
+  press("m");
+  EXPECT_NEAR(controller.waypoints().items()[1].position.y(), 2.0 + step, 1e-9);
+  press("z");
+  for (int i = 0; i < 5; ++i) press(KeyCode::kBackspace);
+  press("0.9");
+  press(KeyCode::kEnter);
+  EXPECT_NEAR(controller.waypoints().items()[1].position.z(), 0.9, 1e-9);
+  EXPECT_THAT(press("s"), ElementsAre(Kind::kMission));
+  EXPECT_EQ(last.waypoints.size(), 3u);
+  press("wcn");
+  EXPECT_EQ(controller.waypoints().items().size(), 3u);
+  press("cy");
+  EXPECT_TRUE(controller.waypoints().empty());
+  EXPECT_EQ(controller.keyboard(), Keyboard::kWaypoints);
+}
+
+TEST_F(ControllerTest, SticksGoBackWhenNoKeyComes) {
+  EXPECT_FALSE(controller.sticks(kBegin));
+  EXPECT_THAT(press("m"), ElementsAre(Kind::kManual));
+  EXPECT_EQ(controller.sticks(kBegin)->deflection(), 0.0);
+  press("w");
+  EXPECT_EQ(controller.sticks(kBegin + 100ms)->forward, 1.0);
+  EXPECT_EQ(controller.sticks(kBegin + KeySticks::kHold)->deflection(), 0.0);
+}
+
+TEST_F(ControllerTest, KeysThatFlyGiveNoCommands) {
+  press("m");
+  EXPECT_THAT(press("wsadikjlmtrheq "), IsEmpty());
+  EXPECT_EQ(controller.keyboard(), Keyboard::kSticks);
+  EXPECT_THAT(press(KeyCode::kEscape), ElementsAre(Kind::kHover));
+  EXPECT_FALSE(controller.sticks(kBegin));
+}
+
+TEST_F(ControllerTest, KeysThatFlyDoWhatTheTableSays) {
+  press("m");
+  const auto sticks_after = [this](char c) {
+    press(" ");
+    press(std::string(1, c));
+    return *controller.sticks(kBegin);
+  };
+  for (const Binding& binding : key_bindings()) {
+    if (binding.keyboards != std::vector{Keyboard::kSticks}) continue;
+    const char key = static_cast<char>(binding.keys.front());
+    const std::string what = binding.what;
+    if (what == "Manual or Assisted Manual") continue;
+    const Sticks sticks = sticks_after(key);
+    const std::map<std::string, double> by_name{
+        {"forward", sticks.forward}, {"back", -sticks.forward},   {"left", sticks.left},
+        {"right", -sticks.left},     {"up", sticks.up},           {"down", -sticks.up},
+        {"turn left", sticks.turn},  {"turn right", -sticks.turn}};
+    const auto found = by_name.find(what);
+    if (found != by_name.end()) {
+      EXPECT_EQ(found->second, 1.0) << what;
+    }
+    if (what == "let go of the sticks") {
+      press("w");
+      EXPECT_EQ(sticks_after(key).deflection(), 0.0);
+    }
+  }
+}
+
+TEST_F(ControllerTest, ParametersAreChosenAndChanged) {
+  press("p");
+  press(KeyCode::kDown);
+  press(KeyCode::kDown);
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kListParameters));
+  EXPECT_EQ(last.component, "planner");
+  EXPECT_THAT(press(KeyCode::kEnter), IsEmpty()) << "there is no answer yet";
+  controller.parameters().entries = {{"seed", "1", "", false}, {"max_speed", "1.5", "", true}};
+  press(KeyCode::kDown);
+  press(KeyCode::kEnter);
+  EXPECT_EQ(controller.text(), "1.5");
+  press(KeyCode::kBackspace);
+  press("2");
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kSetParameter));
+  EXPECT_EQ(last.name, "max_speed");
+  EXPECT_EQ(last.value, "1.2");
+  press(KeyCode::kEscape);
+  EXPECT_TRUE(controller.parameters().component.empty());
+  press(KeyCode::kEscape);
+  EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
+}
+
+TEST(KeyBindings, NoKeyDoesTwoThings) {
+  std::set<std::pair<Keyboard, KeyCode>> seen;
+  for (const Binding& binding : key_bindings()) {
+    for (const Keyboard keyboard : binding.keyboards) {
+      for (const KeyCode key : binding.keys) {
+        EXPECT_TRUE(seen.insert({keyboard, key}).second)
+            << to_string(keyboard) << ": " << binding.label << " " << binding.what;
+      }
+    }
+  }
+}
+
+TEST(KeyBindings, EveryKeyboardCanBeLeft) {
+  for (const Keyboard keyboard : kKeyboards) {
+    if (keyboard == Keyboard::kFly) continue;
+    const Binding* binding = find_binding(keyboard, KeyCode::kEscape);
+    ASSERT_NE(binding, nullptr) << to_string(keyboard);
+    EXPECT_EQ(binding->deed, Deed::kLeave);
+  }
+}
+
+/// As gcs/README.md shows it.
+std::string table_row(const Binding& binding) {
+  std::string where;
+  for (const Keyboard keyboard : binding.keyboards) {
+    where += (where.empty() ? "" : ", ") + std::string(to_string(keyboard));
+  }
+  return "| " + where + " | `" + binding.label + "` | " + binding.what + " |";
+}
+
+TEST(KeyBindings, AreInTheReadme) {
+  std::ifstream file(SWIFTLET_SOURCE_DIR "/gcs/README.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string table;
+  for (const Binding& binding : key_bindings()) table += table_row(binding) + "\n";
+  EXPECT_NE(text.str().find(table), std::string::npos)
+      << "the table of keys in gcs/README.md must be:\n"
+      << table;
+}
+
+}  // namespace
+}  // namespace swiftlet::screen

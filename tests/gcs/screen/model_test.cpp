@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "gcs/screen/drawing/surface.hpp"
+#include "gcs/screen/screen_painter.hpp"
+
+namespace swiftlet::screen {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+const Time kBegin(1000s);
+
+VehicleReport report(const std::string& mode, const std::string& reason = "") {
+  VehicleReport report;
+  report.mode = mode;
+  report.reason = reason;
+  report.ready = true;
+  report.in_flight = mode != "Grounded";
+  return report;
+}
+
+RigidBodyState at(double x, double y) {
+  RigidBodyState state;
+  state.p_WB = {x, y, 1.0};
+  return state;
+}
+
+std::vector<std::string> texts(const GroundStationModel& model) {
+  std::vector<std::string> texts;
+  for (const Event& event : model.log().events()) texts.push_back(event.text);
+  return texts;
+}
+
+std::string screen_of(const GroundStationModel& model, Time now, int width = 80, int height = 24) {
+  Surface surface(width, height);
+  Controller controller;
+  MapPicture picture;
+  paint(surface, model, controller, picture, now);
+  return to_text(surface);
+}
+
+TEST(GroundStationModel, IsStaleAfterASecondAndSaysSo) {
+  GroundStationModel model;
+  model.hear(report("Hover"), kBegin);
+  model.hear(at(1.0, 2.0), kBegin);
+  model.tick(kBegin + 1s);
+  EXPECT_TRUE(model.vehicle().fresh(kBegin + 1s));
+  EXPECT_THAT(screen_of(model, kBegin + 1s), Not(HasSubstr("LOST")));
+  const Time late = kBegin + 1s + 1ms;
+  model.tick(late);
+  EXPECT_FALSE(model.vehicle().fresh(late));
+  EXPECT_THAT(texts(model), Contains(HasSubstr("link lost")));
+  const std::string screen = screen_of(model, late);
+  EXPECT_THAT(screen, HasSubstr("LINK LOST 1.0 s"));
+  EXPECT_THAT(screen, HasSubstr("stale: 1.0 s"));
+  model.hear(report("Hover"), kBegin + 13s);
+  EXPECT_THAT(texts(model).back(), HasSubstr("back after 13.0 s"));
+  EXPECT_TRUE(model.vehicle().fresh(kBegin + 13s));
+}
+
+TEST(GroundStationModel, NotesEachChangeOfModeWithItsReason) {
+  GroundStationModel model;
+  model.hear(report("Grounded"), kBegin);
+  model.hear(report("Takeoff", "asked for"), kBegin + 1s);
+  model.hear(report("Takeoff", "asked for"), kBegin + 2s);
+  model.hear(report("Hover", "at its height"), kBegin + 3s);
+  EXPECT_THAT(texts(model),
+              testing::ElementsAre("vehicle heard: Grounded", "Grounded → Takeoff: asked for",
+                                   "Takeoff → Hover: at its height"));
+}
+
+TEST(GroundStationModel, TrailAndLogAreBounded) {
+  GroundStationModel model;
+  for (int i = 0; i < 20'000; ++i) {
+    model.hear(at(0.05 * i, 0.0), kBegin + i * 10ms);
+    model.note(kBegin, Severity::kNote, std::to_string(i));
+  }
+  EXPECT_EQ(model.trail().size(), GroundStationModel::kLongestTrail);
+  EXPECT_NEAR(model.trail().back().x(), 0.05 * 20'000, 0.2) << "the newest are kept";
+  EXPECT_EQ(model.log().events().size(), EventLog::kCapacity);
+  for (int i = 0; i < 1000; ++i) model.hear(at(7.0, 7.0), kBegin);
+  EXPECT_NEAR(model.trail()[model.trail().size() - 2].x(), 0.05 * 20'000, 0.2) << "standing still";
+}
+
+TEST(GroundStationModel, TheSameAgainIsCounted) {
+  GroundStationModel model;
+  for (int i = 0; i < 5; ++i) model.note(kBegin, Severity::kCaution, "x");
+  ASSERT_EQ(model.log().events().size(), 1u);
+  EXPECT_EQ(model.log().events().front().times, 5);
+}
+
+TEST(GroundStationModel, NamesTheComponentThatFellSilent) {
+  GroundStationModel model;
+  for (int i = 0; i <= 30; ++i) {
+    const Time now = kBegin + i * 100ms;
+    model.hear(report("Hover"), now);
+    if (i < 10) model.hear_component("planner", {}, now);
+    model.hear_component("estimator", {}, now);
+    model.tick(now);
+  }
+  EXPECT_THAT(texts(model), Contains(HasSubstr("planner: silent")));
+  EXPECT_THAT(model.problems(kBegin + 3s), Contains(HasSubstr("planner: silent")));
+  EXPECT_THAT(model.problems(kBegin + 3s), Not(Contains(HasSubstr("estimator"))));
+}
+
+TEST(GroundStationModel, ALostLinkBlamesNoComponent) {
+  GroundStationModel model;
+  model.hear(report("Hover"), kBegin);
+  model.hear_component("planner", {}, kBegin);
+  model.tick(kBegin + 5s);
+  EXPECT_THAT(texts(model), Not(Contains(HasSubstr("planner"))));
+}
+
+TEST(GroundStationModel, SaysWhenTheBatteryFallsBelowAThreshold) {
+  GroundStationModel model;
+  for (int i = 0; i <= 100; ++i) {
+    model.hear(BatteryReport{1.0 - 0.01 * i, 15.0, 10.0, 1.0}, kBegin + i * 1s);
+  }
+  EXPECT_THAT(texts(model), testing::ElementsAre("battery below 30 %", "battery below 20 %",
+                                                 "battery below 10 %"));
+}
+
+TEST(BatteryClock, DividesTheChargeByTheCurrent) {
+  BatteryClock clock;
+  EXPECT_FALSE(clock.seconds_left());
+  for (int i = 0; i < 20; ++i)
+    clock.add({0.5, 15.0, i % 2 == 0 ? 9.0 : 11.0, 2.0}, kBegin + i * 1s);
+  ASSERT_TRUE(clock.seconds_left());
+  EXPECT_NEAR(*clock.seconds_left(), 2.0 / 10.0 * 3600.0, 1.0);
+}
+
+TEST(BatteryClock, TakesTheSlopeWhereNoChargeIsMeasuredAndSaysNothingTooEarly) {
+  const double nan = std::nan("");
+  BatteryClock clock;
+  for (int i = 0; i <= 60; ++i) {
+    clock.add({0.8 - 0.001 * i, 15.0, nan, nan}, kBegin + i * 1s);
+    if (i < 5) {
+      EXPECT_FALSE(clock.seconds_left()) << i;
+    }
+  }
+  ASSERT_TRUE(clock.seconds_left());
+  EXPECT_NEAR(*clock.seconds_left(), 740.0, 5.0);
+  BatteryClock idle;
+  for (int i = 0; i <= 60; ++i) idle.add({0.8, 15.0, nan, nan}, kBegin + i * 1s);
+  EXPECT_FALSE(idle.seconds_left()) << "nothing is used, so nothing is known";
+}
+
+class Sizes : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(Sizes, ShowWhatMatters) {
+  const auto [width, height] = GetParam();
+  GroundStationModel model;
+  VehicleReport vehicle = report("Indoor Navigation");
+  vehicle.armed = true;
+  vehicle.height = 1.25;
+  model.hear(vehicle, kBegin);
+  model.hear(at(2.2, 4.4), kBegin);
+  model.hear(BatteryReport{0.87, 15.9, 12.0, 3.0}, kBegin);
+  model.note(kBegin, Severity::kNote, "something happened");
+  const std::string screen = screen_of(model, kBegin, width, height);
+  for (const char* text :
+       {"Indoor Navigation", "ARMED", "87 %", "15 min", "1.25 m", "2.20 4.40", "speed", "GPS",
+        "Health", "Map", "Events", "something happened", "? help"}) {
+    EXPECT_THAT(screen, HasSubstr(text)) << screen;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(EachLayout, Sizes,
+                         testing::Values(std::pair(60, 20), std::pair(80, 24), std::pair(119, 30),
+                                         std::pair(120, 40), std::pair(200, 60)));
+
+TEST(Layout, NoPartCoversAnotherAtAnySize) {
+  for (int width = kLeastWidth; width <= 260; width += 7) {
+    for (int height = kLeastHeight; height <= 90; height += 3) {
+      for (const bool edits : {false, true}) {
+        const Layout layout = layout_of(width, height, edits);
+        std::vector<int> covered(static_cast<std::size_t>(width * height), 0);
+        for (const Area& area :
+             {layout.header, layout.flight, layout.health, layout.map, layout.waypoints,
+              layout.events, layout.link, layout.message, layout.hints}) {
+          for (int y = area.y; y < area.y + area.height; ++y) {
+            for (int x = area.x; x < area.x + area.width; ++x) {
+              ASSERT_TRUE(x >= 0 && y >= 0 && x < width && y < height) << width << "x" << height;
+              ASSERT_EQ(covered[static_cast<std::size_t>(y * width + x)]++, 0)
+                  << width << "x" << height << " at " << x << " " << y;
+            }
+          }
+        }
+        EXPECT_GE(layout.map.width, 30);
+        EXPECT_GE(layout.map.height, 8);
+        EXPECT_GE(edits ? layout.waypoints.height : layout.health.height, 2);
+      }
+    }
+  }
+}
+
+TEST(Screen, SaysThatItIsTooSmall) {
+  EXPECT_THAT(screen_of({}, kBegin, 59, 20), HasSubstr("too small: 59 x 20, needs 60 x 20"));
+  screen_of({}, kBegin, 1, 1);
+  screen_of({}, kBegin, 0, 0);
+}
+
+}  // namespace
+}  // namespace swiftlet::screen
