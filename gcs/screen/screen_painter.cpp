@@ -19,6 +19,8 @@ namespace {
 constexpr int kWide = 120;
 /// The values under the horizon.
 constexpr int kValues = 6;
+/// Rows below them from which on there is room for health and link.
+constexpr int kLeastForLink = 9;
 /// The first row below the header and a line.
 constexpr int kTop = 2;
 
@@ -135,8 +137,8 @@ Layout layout_of(int width, int height, bool edits_waypoints) {
   const int map_x = left + 1;
   const int map_width = width - map_x - (right > 0 ? right + 1 : 0);
   if (wide) {
-    const int link = std::min(rest.height / 2, 14);
-    layout.health = {0, below, left, rest.height - link - 1};
+    const int link = rest.height < kLeastForLink ? 0 : std::min(rest.height / 2, 14);
+    layout.health = {0, below, left, rest.height - (link > 0 ? link + 1 : 0)};
     layout.link = {0, bottom - link, left, link};
     layout.map = {map_x, top, map_width, bottom - top};
     const int x = width - right;
@@ -166,7 +168,7 @@ void paint(Surface& surface, const GroundStationModel& model, Controller& contro
   const Layout layout = layout_of(surface.width(), surface.height(), edits_waypoints(controller));
   const int rows = layout.message.y - 1;
   separate(screen.part({layout.map.x - 1, 1, 1, rows}));
-  if (layout.link.height > 0) {
+  if (layout.map.x + layout.map.width < screen.width()) {
     separate(screen.part({layout.map.x + layout.map.width, 1, 1, rows}));
   }
   title(screen, layout.flight, "Flight");

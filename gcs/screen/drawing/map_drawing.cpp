@@ -107,8 +107,8 @@ void draw_scale(const Pane& pane, const MapView& view) {
   for (int x = 0; x <= columns; ++x) pane.put(x, y, U'─', kPlain);
   pane.put(0, y, U'├', kPlain);
   pane.put(columns, y, U'┤', kPlain);
-  pane.text(columns + 2, y, fmt::format("{:g} m", length));
-  pane.text(pane.width() - 3, 0, "↑ N", kPlain);
+  pane.text(columns + 1, y, fmt::format(" {:g} m ", length));
+  pane.text_before(pane.width(), 0, " ↑ N");
 }
 
 }  // namespace
