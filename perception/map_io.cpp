@@ -12,8 +12,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
-#include <system_error>
 #include <vector>
+
+#include "estimation/basics/whole_file.hpp"
 
 namespace swiftlet {
 namespace {
@@ -34,30 +35,6 @@ struct Image {
 struct ReadFailure {
   std::string problem;
 };
-
-Status write_whole(const std::filesystem::path& file, const std::string& content) {
-  const std::filesystem::path temporary = file.string() + ".part";
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.close();
-    if (!out) {
-      std::filesystem::remove(temporary, error);
-      return Error{
-          fmt::format("{}: cannot be written; does the folder exist, is it writable, is "
-                      "there space left?",
-                      file.string())};
-    }
-  }
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    const std::string why = error.message();
-    std::filesystem::remove(temporary, error);
-    return Error{fmt::format("{}: cannot be written: {}", file.string(), why)};
-  }
-  return {};
-}
 
 std::vector<std::uint8_t> pixels_of(const OccupancyGrid& grid) {
   std::vector<std::uint8_t> pixels;
