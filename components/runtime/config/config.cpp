@@ -69,6 +69,12 @@ std::string to_yaml(const std::vector<std::string>& values) {
   return text.c_str();
 }
 
+YAML::Node mapping_to_nothing(const YAML::Node& key) {
+  YAML::Node mapping(YAML::NodeType::Map);
+  mapping.force_insert(key, YAML::Node());
+  return mapping;
+}
+
 std::string join_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
@@ -318,6 +324,24 @@ std::vector<Config> Config::list(const std::string& key) const {
   return items;
 }
 
+std::vector<Config> Config::steps(const std::string& key) const {
+  std::vector<Config> steps;
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return steps;
+  if (!node.IsSequence()) fail(key, fmt::format("'{}' must be a list, not {}", key, kind_of(node)));
+  for (const YAML::Node& item : node) {
+    const YAML::Node step = item.IsScalar() ? mapping_to_nothing(item) : YAML::Node(item);
+    if (!step.IsMap()) {
+      throw ConfigError(fmt::format("{}:{}: each of '{}' must be a mapping or a word, not {}",
+                                    file_->name, line_of(item), key, kind_of(item)));
+    }
+    const std::string path = item_path(path_, key, steps.size());
+    file_->known[path];
+    steps.push_back(Config(file_, path, step));
+  }
+  return steps;
+}
+
 void Config::demand(const std::string& key) const {
   if (!has(key)) fail({}, fmt::format("'{}' is missing; add it", key));
 }
@@ -327,11 +351,17 @@ std::string Config::where(const std::string& key) const {
   if (by_hand != file_->set_by_hand.end()) {
     return fmt::format("{}={}", by_hand->first, YAML::Dump(by_hand->second));
   }
-  int line = line_of(*node_);
+  return fmt::format("{}:{}", file_->name, line(key));
+}
+
+int Config::line(const std::string& key) const {
+  // One that was made of a word has no line of its own.
+  const bool is_made = node_->Mark().is_null() && node_->size() > 0;
+  int line = line_of(is_made ? node_->begin()->first : *node_);
   for (const auto& entry : *node_) {
     if (entry.first.Scalar() == key) line = line_of(entry.first);
   }
-  return fmt::format("{}:{}", file_->name, line);
+  return line;
 }
 
 void Config::fail(const std::string& key, const std::string& problem) const {
@@ -351,6 +381,27 @@ namespace {
 }
 
 }  // namespace
+
+std::string Config::only_key(const std::vector<std::string>& known) const {
+  const std::vector<std::string> found = keys();
+  for (const std::string& key : found) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      fail_unknown(*this, key, {known.begin(), known.end()});
+    }
+  }
+  if (found.size() != 1) {
+    fail({}, fmt::format("expected one of {}, found {}", fmt::join(known, ", "),
+                         found.empty() ? "none" : fmt::format("{}", fmt::join(found, " and "))));
+  }
+  find(found.front());
+  return found.front();
+}
+
+void Config::require_nothing(const std::string& key) const {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined() || node.IsNull()) return;
+  fail(key, fmt::format("'{}' takes no value, not {}; write '{}' alone", key, kind_of(node), key));
+}
 
 void Config::finish() const {
   for (const auto& [path, node] : file_->set_by_hand) {

@@ -90,6 +90,13 @@ class Config {
   Config child(const std::string& key) const;
   /// The sequence of mappings below `key`; empty where it is absent.
   std::vector<Config> list(const std::string& key) const;
+  /// The sequence below `key` of mappings, or words: `- land` stands for `- land:`.
+  std::vector<Config> steps(const std::string& key) const;
+  /// The only key of this mapping. Refuses a mapping with more or none, and a key that is not
+  /// among `known`.
+  std::string only_key(const std::vector<std::string>& known) const;
+  /// Refuses a value where `key` alone says it all.
+  void require_nothing(const std::string& key) const;
   /// Refuses a file without `key`.
   void demand(const std::string& key) const;
 
@@ -101,7 +108,9 @@ class Config {
   /// Refuses keys that nobody asked for, in the whole file that this mapping belongs to.
   void finish() const;
 
-  /// "file.yaml:12", the line of `key` where it is given and of the mapping where it is not.
+  /// Of `key` where it is given and of the mapping where it is not, from 1.
+  int line(const std::string& key = {}) const;
+  /// "file.yaml:12".
   std::string where(const std::string& key = {}) const;
   /// Throws ConfigError: "<where(key)>: <problem>".
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;

@@ -26,6 +26,9 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    // "yaw" is short for "yaw_deg" rather than a mistake for "y".
+    const bool is_begun = word.size() > 1 && candidate.compare(0, word.size(), word) == 0;
+    if (is_begun) return candidate;
     const std::size_t d = distance(candidate);
     if (d < best_distance) {
       best_distance = d;

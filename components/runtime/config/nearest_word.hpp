@@ -7,7 +7,8 @@
 
 namespace swiftlet {
 
-/// The candidate nearest to `word` by edit distance, or "" when none is near enough to be meant.
+/// The candidate that `word` is short for, else the nearest by edit distance; "" when none is near
+/// enough to be meant.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace swiftlet

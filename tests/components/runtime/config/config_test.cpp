@@ -170,8 +170,33 @@ TEST(Config, ValuesSetByHandWinOverTheFile) {
   EXPECT_THAT(error_of([&] { config.finish(); }), HasSubstr("'sped'; did you mean 'speed'?"));
 }
 
+TEST(Config, StepsAreMappingsOrWordsAndKnowTheirLines) {
+  const Config config =
+      Config::parse("steps:\n  - land\n  - hold: 5\n  - {a: 1, b: 2}\n  - hopp\n", "f.yaml");
+  const std::vector<Config> steps = config.steps("steps");
+  ASSERT_EQ(steps.size(), 4u);
+  EXPECT_EQ(steps[0].only_key({"land", "hold"}), "land");
+  EXPECT_EQ(steps[0].line(), 2);
+  EXPECT_NO_THROW(steps[0].require_nothing("land"));
+  EXPECT_EQ(steps[1].only_key({"land", "hold"}), "hold");
+  EXPECT_EQ(steps[1].line("hold"), 3);
+  EXPECT_THAT(error_of([&] { steps[1].require_nothing("hold"); }),
+              AllOf(HasSubstr("f.yaml:3"), HasSubstr("not '5'"), HasSubstr("write 'hold' alone")));
+  EXPECT_THAT(error_of([&] {
+                (void)steps[2].only_key({"a", "b"});
+              }),
+              AllOf(HasSubstr("f.yaml:4"), HasSubstr("found a and b")));
+  EXPECT_THAT(error_of([&] {
+                (void)steps[3].only_key({"hop", "land"});
+              }),
+              AllOf(HasSubstr("f.yaml:5"), HasSubstr("did you mean 'hop'?")));
+  EXPECT_THAT(error_of([] { (void)Config::parse("s:\n  - [a]\n", "f.yaml").steps("s"); }),
+              AllOf(HasSubstr("f.yaml:2"), HasSubstr("must be a mapping or a word")));
+}
+
 TEST(NearestWord, FindsTyposAndNothingElse) {
   EXPECT_EQ(nearest_word("estimater", {"commander", "estimator"}), "estimator");
+  EXPECT_EQ(nearest_word("yaw", {"y", "yaw_deg"}), "yaw_deg") << "short for it";
   EXPECT_EQ(nearest_word("zzz", {"commander", "estimator"}), "");
   EXPECT_EQ(nearest_word("x", {}), "");
 }
