@@ -15,6 +15,7 @@
 #include "components/runtime/command_line.hpp"
 #include "gcs/command_client.hpp"
 #include "gcs/screen/shell/screen_command.hpp"
+#include "gcs/mission_file_commands.hpp"
 #include "gcs/status_view.hpp"
 #include "gcs/stick_client.hpp"
 
@@ -153,6 +154,10 @@ void add_gcs_commands(CLI::App& gcs) {
              command::RETURN);
   add_gps(gcs, network);
   add_stick(gcs, network);
+
+  CLI::App* mission = gcs.add_subcommand("mission", "Missions: files, and what the vehicle has");
+  mission->require_subcommand(1);
+  add_mission_file_commands(*mission);
 
   auto altitude = std::make_shared<double>(kDefaultAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
