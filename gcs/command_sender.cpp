@@ -81,6 +81,7 @@ void CommandSender::send(Time now) {
     message.id(id_);
     message.command(command_->command);
     message.altitude(command_->altitude);
+    message.item(command_->item);
     topics_.mode.publish(message);
   }
   next_send_ = now + kResend;

@@ -16,6 +16,7 @@ struct GroundCommand {
   std::string name;          ///< as it was typed
   std::uint8_t command = 0;  ///< of ModeCommand, where it is no mission
   double altitude = 0.0;     ///< of TAKEOFF [m]
+  std::uint32_t item = 0;    ///< of MISSION_START; 0: where it was paused, or the first
   struct Place {
     double x = 0.0;           ///< [m]
     double y = 0.0;           ///< [m]

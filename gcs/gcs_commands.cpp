@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "components/runtime/command_line.hpp"
-#include "gcs/command_client.hpp"
-#include "gcs/screen/shell/screen_command.hpp"
+#include "gcs/command_options.hpp"
+#include "gcs/mission_commands.hpp"
 #include "gcs/mission_file_commands.hpp"
+#include "gcs/screen/shell/screen_command.hpp"
 #include "gcs/status_view.hpp"
 #include "gcs/stick_client.hpp"
 
@@ -35,19 +36,6 @@ std::string finite(const std::string& text) {
   return is_finite ? "" : "'" + text + "' is no finite number of metres";
 }
 
-void send(const NetworkOptions& network, const GroundCommand& ground_command) {
-  Host host(network.host_options("gcs"));
-  auto& client = host.emplace<CommandClient>("gcs", ground_command);
-  host.run();
-  const CommandOutcome& outcome = client.outcome();
-  if (outcome.accepted) {
-    fmt::print("{}\n", outcome.text);
-    return;
-  }
-  fmt::print(stderr, "{}\n", outcome.text.empty() ? "interrupted" : outcome.text);
-  throw CLI::RuntimeError(1);
-}
-
 void show_status(const NetworkOptions& network, bool json) {
   Host host(network.host_options("gcs"));
   auto& client = host.emplace<StatusClient>("gcs", false);
@@ -62,16 +50,16 @@ void show_status(const NetworkOptions& network, bool json) {
   fmt::print("{}\n", json ? to_json(client.view()) : describe(client.view()));
 }
 
-void add_simple(CLI::App& gcs, const Network& network, const char* name, const char* what,
-                std::uint8_t code) {
-  CLI::App* verb = gcs.add_subcommand(name, what);
+void add_simple(CLI::App& group, const Network& network, const char* name, const char* what,
+                std::uint8_t code, const std::string& prefix = "") {
+  CLI::App* verb = group.add_subcommand(name, what);
+  GroundCommand ground_command;
+  ground_command.name = prefix + name;
+  ground_command.command = code;
+  const auto options = std::make_shared<CommandOptions>();
+  options->add_to(*verb);
   network->add_to(*verb);
-  verb->callback([network, name, code] {
-    GroundCommand ground_command;
-    ground_command.name = name;
-    ground_command.command = code;
-    send(*network, ground_command);
-  });
+  verb->callback([network, options, ground_command] { options->send(*network, ground_command); });
 }
 
 void add_gps(CLI::App& gcs, const Network& network) {
@@ -83,12 +71,14 @@ void add_gps(CLI::App& gcs, const Network& network) {
                    "Above the take-off point [m]; else that of the commander's gps_altitude")
       ->check(CLI::PositiveNumber)
       ->check(finite);
+  const auto options = std::make_shared<CommandOptions>();
+  options->add_to(*verb);
   network->add_to(*verb);
-  verb->callback([network, place] {
+  verb->callback([network, options, place] {
     GroundCommand ground_command;
     ground_command.name = "gps";
     ground_command.go_to_global = *place;
-    send(*network, ground_command);
+    options->send(*network, ground_command);
   });
 }
 
@@ -158,19 +148,26 @@ void add_gcs_commands(CLI::App& gcs) {
   CLI::App* mission = gcs.add_subcommand("mission", "Missions: files, and what the vehicle has");
   mission->require_subcommand(1);
   add_mission_file_commands(*mission);
+  add_mission_commands(*mission, network);
+  CLI::App* claw = gcs.add_subcommand("claw", "What the vehicle carries");
+  claw->require_subcommand(1);
+  add_simple(*claw, network, "open", "Let go", command::CLAW_OPEN, "claw ");
+  add_simple(*claw, network, "close", "Take hold", command::CLAW_CLOSE, "claw ");
 
   auto altitude = std::make_shared<double>(kDefaultAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
   takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")
       ->capture_default_str()
       ->check(finite);
+  const auto takeoff_options = std::make_shared<CommandOptions>();
+  takeoff_options->add_to(*takeoff);
   network->add_to(*takeoff);
-  takeoff->callback([network, altitude] {
+  takeoff->callback([network, takeoff_options, altitude] {
     GroundCommand ground_command;
     ground_command.name = "takeoff";
     ground_command.command = command::TAKEOFF;
     ground_command.altitude = *altitude;
-    send(*network, ground_command);
+    takeoff_options->send(*network, ground_command);
   });
 
   auto place = std::make_shared<GroundCommand::Place>();
@@ -178,12 +175,14 @@ void add_gcs_commands(CLI::App& gcs) {
   go_to->add_option("x", place->x, "[m]")->required()->check(finite);
   go_to->add_option("y", place->y, "[m]")->required()->check(finite);
   go_to->add_option("z", place->z, "[m]; else at the height that it has")->check(finite);
+  const auto goto_options = std::make_shared<CommandOptions>();
+  goto_options->add_to(*go_to);
   network->add_to(*go_to);
-  go_to->callback([network, place] {
+  go_to->callback([network, goto_options, place] {
     GroundCommand ground_command;
     ground_command.name = "goto";
     ground_command.go_to = *place;
-    send(*network, ground_command);
+    goto_options->send(*network, ground_command);
   });
 
   auto json = std::make_shared<bool>(false);

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gcs/command_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "gcs/command_client.hpp"
+#include "gcs/command_watch.hpp"
+
+namespace swiftlet {
+namespace {
+
+CommandOutcome until_accepted(const NetworkOptions& network, const GroundCommand& command) {
+  Host host(network.host_options("gcs"));
+  const auto& client = host.emplace<CommandClient>("gcs", command);
+  host.run();
+  return client.outcome();
+}
+
+CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& command) {
+  Terminal terminal;
+  Host host(network.host_options("gcs"));
+  const auto& client = host.emplace<WaitClient>("gcs", command, terminal);
+  host.run();
+  terminal.clear();
+  return client.outcome();
+}
+
+}  // namespace
+
+void CommandOptions::add_to(CLI::App& verb) {
+  verb.add_flag("--wait", wait_, "Until it is done; exit code 1 where it comes to another end");
+  verb.add_flag("--json", json_, "For scripts");
+}
+
+void CommandOptions::send(const NetworkOptions& network, const GroundCommand& command) const {
+  CommandOutcome outcome = until_accepted(network, command);
+  const bool accepted = outcome.accepted;
+  if (accepted && wait_) outcome = until_done(network, command);
+  if (outcome.text.empty()) outcome.text = command.name + ": interrupted";
+  if (json_) {
+    const nlohmann::json json = {{"command", command.name},
+                                 {"accepted", accepted},
+                                 {"done", wait_ && outcome.accepted},
+                                 {"text", outcome.text}};
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print(outcome.accepted ? stdout : stderr, "{}\n", outcome.text);
+  }
+  if (!outcome.accepted) throw CLI::RuntimeError(1);
+}
+
+}  // namespace swiftlet

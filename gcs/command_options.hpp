@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "components/runtime/command_line.hpp"
+#include "gcs/command_sender.hpp"
+
+namespace swiftlet {
+
+/// `--wait` and `--json`, for every verb that commands the vehicle.
+class CommandOptions {
+ public:
+  void add_to(CLI::App& verb);
+  /// Sends the command, and with `--wait` stays until it is done; says how it went. Throws
+  /// CLI::RuntimeError(1) where it was refused, was not answered or has failed.
+  void send(const NetworkOptions& network, const GroundCommand& command) const;
+
+ private:
+  bool wait_ = false;
+  bool json_ = false;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "components/runtime/command_line.hpp"
+
+namespace swiftlet {
+
+/// Adds the verbs for the vehicle's mission to the command `mission`: upload, download, status,
+/// start, pause, clear.
+void add_mission_commands(CLI::App& mission, const std::shared_ptr<NetworkOptions>& network);
+
+}  // namespace swiftlet
