@@ -27,8 +27,8 @@ constexpr int kFrameTerrainInt = 11;
 /// Goes through the items as a vehicle of MAVLink's would.
 class Import {
  public:
-  Import(const MissionReading& reading, MissionFile& mission)
-      : reading_(reading), mission_(mission) {}
+  Import(std::optional<double> home_altitude, MissionFile& mission)
+      : home_altitude_(home_altitude), mission_(mission) {}
 
   void add(const MavlinkItem& item);
 
@@ -60,7 +60,7 @@ class Import {
     if (said_.insert(what).second) mission_.remarks.push_back({item.line, what});
   }
 
-  const MissionReading& reading_;
+  std::optional<double> home_altitude_;  // above sea [m]
   MissionFile& mission_;
   std::optional<double> speed_;          // of the waypoints that follow [m/s]
   std::optional<GlobalWaypoint> place_;  // flown to last
@@ -98,9 +98,7 @@ double Import::altitude_of(const MavlinkItem& item) {
                                     "above home (frame 3)",
                                     mav_command_name(item.command), item.frame));
   }
-  std::optional<double> home = reading_.home_altitude;
-  if (!home && mission_.home) home = mission_.home->altitude;
-  if (!home) {
+  if (!home_altitude_) {
     throw LineProblem(
         item.line,
         fmt::format("{} has an altitude of {} m above sea (frame {}), and nobody says how high the "
@@ -109,8 +107,8 @@ double Import::altitude_of(const MavlinkItem& item) {
   }
   remark_once(item, fmt::format("altitudes above sea (frame {}) became heights above the take-off "
                                 "point, which is at {:.1f} m",
-                                item.frame, *home));
-  return item.altitude() - *home;
+                                item.frame, *home_altitude_));
+  return item.altitude() - *home_altitude_;
 }
 
 void Import::take_off(const MavlinkItem& item) {
@@ -248,9 +246,9 @@ void Import::add(const MavlinkItem& item) {
 
 }  // namespace
 
-void add_mavlink_items(const std::vector<MavlinkItem>& items, const MissionReading& reading,
+void add_mavlink_items(const std::vector<MavlinkItem>& items, std::optional<double> home_altitude,
                        MissionFile& mission) {
-  Import import(reading, mission);
+  Import import(home_altitude, mission);
   for (const MavlinkItem& item : items) import.add(item);
 }
 

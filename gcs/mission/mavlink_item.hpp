@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,8 @@ struct MavlinkItem {
 };
 
 /// Translates them, and adds them to `mission`, with remarks on what is not flown as they say.
-/// Needs its home for altitudes above sea. Throws LineProblem.
-void add_mavlink_items(const std::vector<MavlinkItem>& items, const MissionReading& reading,
+/// `home_altitude` is needed where altitudes are above sea [m]. Throws LineProblem.
+void add_mavlink_items(const std::vector<MavlinkItem>& items, std::optional<double> home_altitude,
                        MissionFile& mission);
 
 struct MavlinkMission {

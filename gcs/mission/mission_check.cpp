@@ -244,6 +244,11 @@ void Checker::check_battery() {
 
 MissionCheck Checker::check() {
   if (count() == 0) say_of_all(Severity::kError, "there are no items; add at least one");
+  if (count() > params_.most_items) {
+    say_of_all(Severity::kError,
+               fmt::format("it has {} items, and the vehicle takes {}; make several missions of it",
+                           count(), params_.most_items));
+  }
   check_items();
   check_order();
   check_distances();

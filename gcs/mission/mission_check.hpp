@@ -29,6 +29,7 @@ struct MissionCheckParams {
   Eigen::Vector3d takeoff = Eigen::Vector3d::Zero();  ///< where it stands, in the map [m]
   std::optional<LocalOrigin> origin;                  ///< else from the mission's home
   Geofence fence;                                     ///< around the take-off point
+  std::size_t most_items = 1000;                      ///< that the vehicle takes
   std::optional<double> most_speed;                   ///< [m/s]
   double longest_leg = 1000.0;                        ///< a longer one is a mistake [m]
 

@@ -20,6 +20,9 @@ namespace {
 
 /// A survey of a thousand lines with a photo every metre has less.
 constexpr std::size_t kMostBytes = 8 << 20;
+// More than any vehicle flies, and few enough to look at each with each.
+constexpr std::size_t kMostItems = 10'000;
+constexpr std::size_t kMostCorners = 1'000;
 
 MissionFile parse(MissionForm form, const std::string& text, const std::string& name,
                   const MissionReading& reading) {
@@ -38,6 +41,18 @@ MissionFile parse(MissionForm form, const std::string& text, const std::string& 
 void check(const MissionFile& mission) {
   if (mission.items.empty()) {
     throw LineProblem(1, "there are no items that can be flown; add at least one");
+  }
+  if (mission.items.size() > kMostItems) {
+    throw LineProblem(mission.items[kMostItems].line,
+                      fmt::format("more than {} items; make several missions of it", kMostItems));
+  }
+  std::size_t corners = 0;
+  for (const FenceZone& zone : mission.fence) {
+    corners += 1 + zone.corners.size();
+    if (corners <= kMostCorners) continue;
+    throw LineProblem(zone.line, fmt::format("a fence of more than {} areas and corners; make it "
+                                             "simpler",
+                                             kMostCorners));
   }
   for (std::size_t i = 0; i < mission.items.size(); ++i) {
     const std::string problem = problem_of(mission.items[i].item);

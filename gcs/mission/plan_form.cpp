@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "gcs/mission/json_lines.hpp"
 #include "gcs/mission/line_problem.hpp"
@@ -27,7 +28,7 @@ void check_version(const JsonValue& object, int known, const char* what) {
                                 what, version.whole(), known));
 }
 
-/// [latitude, longitude], and where `count` is 3, the altitude.
+/// [latitude, longitude], and where `count` is 3, the altitude: 0 where it is null.
 GlobalPosition read_position(const JsonValue& value, std::size_t count) {
   const std::vector<JsonValue>& numbers = value.list();
   if (numbers.size() < count) {
@@ -205,15 +206,18 @@ MissionFile parse_plan(const std::string& text, const MissionReading& reading) {
   }
   check_version(*given, kMissionVersion, "a mission");
   MissionFile mission;
+  std::optional<double> home_altitude = reading.home_altitude;
   if (const JsonValue* home = given->find("plannedHomePosition"); home && !home->is_null()) {
     mission.home = read_position(*home, 3);
+    const bool has_altitude = !home->list()[2].is_null();
+    if (!home_altitude && has_altitude) home_altitude = mission.home->altitude;
   }
   if (const JsonValue* speed = given->find("hoverSpeed"); speed && !speed->is_null()) {
     if (speed->number() > 0.0) mission.cruise_speed = speed->number();
   }
   std::vector<MavlinkItem> items;
   for (const JsonValue& item : given->at("items").list()) read_item(item, items, mission);
-  add_mavlink_items(items, reading, mission);
+  add_mavlink_items(items, home_altitude, mission);
   if (const JsonValue* fence = plan.find("geoFence")) read_fence(*fence, mission);
   if (const JsonValue* rally = plan.find("rallyPoints")) read_rally_points(*rally, mission);
   return mission;

@@ -53,6 +53,7 @@ MavlinkItem read_item(const std::vector<std::string>& words, std::size_t index, 
     throw LineProblem(line,
                       fmt::format("the index is {}, not {}; is a line missing?", words[0], index));
   }
+  whole_of(words[1], line);  // where a vehicle was
   MavlinkItem item;
   item.line = line;
   item.frame = whole_of(words[2], line);
@@ -112,7 +113,9 @@ MissionFile parse_waypoints(const std::string& text, const MissionReading& readi
       items.push_back(item);
     }
   }
-  add_mavlink_items(items, reading, mission);
+  std::optional<double> home_altitude = reading.home_altitude;
+  if (!home_altitude && mission.home) home_altitude = mission.home->altitude;
+  add_mavlink_items(items, home_altitude, mission);
   return mission;
 }
 

@@ -71,6 +71,14 @@ TEST(MissionCheck, WhatNeedsFlightStandsBetweenTakeoffAndLanding) {
   EXPECT_THAT(findings({}), ElementsAre(HasSubstr("no items")));
 }
 
+TEST(MissionCheck, TheVehicleTakesSoManyItems) {
+  MissionCheckParams params;
+  params.most_items = 3;
+  EXPECT_THAT(findings({kUp, hold_for(1), kBack}, params), IsEmpty());
+  EXPECT_THAT(findings({kUp, hold_for(1), hold_for(1), kBack}, params),
+              ElementsAre(HasSubstr("m: error: it has 4 items, and the vehicle takes 3")));
+}
+
 TEST(MissionCheck, ItemsThatMakeNoSenseAreNamed) {
   EXPECT_THAT(findings({takeoff_to(0), hold_for(-1), kDown}),
               ElementsAre(HasSubstr("item 1: error: a take-off to 0 m"),

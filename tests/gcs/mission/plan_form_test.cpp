@@ -120,6 +120,7 @@ TEST(PlanMission, ErrorsNameTheLine) {
   EXPECT_THAT(
       error("\"plannedHomePosition\": [47.3977, 8.5456, 488.5],", ""),
       AllOf(HasSubstr(at("\"frame\": 0")), HasSubstr("above sea"), HasSubstr("--home-altitude")));
+  EXPECT_THAT(error("8.5456, 488.5]", "8.5456, null]"), HasSubstr("--home-altitude"));
   EXPECT_THAT(error("[1, 3.5, -1, 0, 0, 0, 0]", "[1, 0, -1, 0, 0, 0, 0]"), HasSubstr("above 0"));
   EXPECT_THAT(error("\"frame\": 0,", "\"frame\": 1,"),
               HasSubstr("frame 1, which is not supported"));
