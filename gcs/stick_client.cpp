@@ -15,6 +15,8 @@ using namespace std::chrono_literals;
 
 constexpr Duration kPeriod = 50ms;
 constexpr Duration kHeartbeat = 250ms;
+/// So long the end waits until the vehicle has heard that it is one.
+constexpr Duration kFarewell = 1s;
 /// From its start on it waits so long for somebody who hears it.
 constexpr Duration kTimeout = 1500ms;
 
@@ -77,6 +79,9 @@ Heartbeat::Heartbeat(const ComponentContext& context) : Component(context) {
 
 Heartbeat::~Heartbeat() {
   send(false);
+  // Who ends at once takes back what is under way. Should the word get lost all the same, the
+  // vehicle misses this ground station, which is the safe side.
+  heartbeat_.wait_until_acknowledged(kFarewell);
 }
 
 void Heartbeat::send(bool stays) {

@@ -34,6 +34,9 @@ class Component::GatedWriter : public Writer {
   }
   void discard_loan(void* sample) override { writer_->discard_loan(sample); }
   int matched_readers() const override { return writer_->matched_readers(); }
+  bool wait_until_acknowledged(Duration limit) override {
+    return writer_->wait_until_acknowledged(limit);
+  }
 
  private:
   bool open() const { return !gate_->halted && (also_while_waiting_ || gate_->active); }

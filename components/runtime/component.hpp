@@ -40,6 +40,8 @@ class Publisher {
   void publish(Loan<T>&& loan) { Loan<T>(std::move(loan)).publish(); }
   /// Readers that get what is published, in whichever process.
   int matched_readers() const { return writer_->matched_readers(); }
+  /// For a last word: waits until reliable readers have what was published, for `limit` at most.
+  bool wait_until_acknowledged(Duration limit) { return writer_->wait_until_acknowledged(limit); }
 
  private:
   std::shared_ptr<Writer> writer_;

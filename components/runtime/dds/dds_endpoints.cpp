@@ -71,6 +71,13 @@ class DdsWriter : public Writer {
     return status.current_count;
   }
 
+  bool wait_until_acknowledged(Duration limit) override {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limit);
+    const auto rest = static_cast<std::uint32_t>((limit - seconds).count());
+    const eprosima::fastrtps::Duration_t wait(static_cast<std::int32_t>(seconds.count()), rest);
+    return writer_->wait_for_acknowledgments(wait) == ReturnCode_t::RETCODE_OK;
+  }
+
  private:
   bool send(void* sample) {
     const StuckWatch::Inside inside(what_.c_str());

@@ -66,6 +66,9 @@ class Writer {
   virtual void discard_loan(void* /*sample*/) {}
   /// Readers that get what is written, in whichever process.
   virtual int matched_readers() const = 0;
+  /// Waits until every reliable reader has acknowledged what was written, for `limit` at most;
+  /// false where one has not. At once where samples are delivered in the writer's thread.
+  virtual bool wait_until_acknowledged(Duration /*limit*/) { return true; }
 };
 
 /// Holds the samples of one topic until they are taken.

@@ -45,6 +45,9 @@ class FaultyWriter : public Writer {
   }
 
   int matched_readers() const override { return writer_->matched_readers(); }
+  bool wait_until_acknowledged(Duration limit) override {
+    return writer_->wait_until_acknowledged(limit);
+  }
 
  private:
   bool strikes() {
