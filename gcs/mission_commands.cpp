@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/commander/mission_message.hpp"
+#include "components/terminal/terminal.hpp"
 #include "gcs/command_options.hpp"
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
