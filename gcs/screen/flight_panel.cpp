@@ -132,7 +132,7 @@ void paint_flight(const Pane& pane, const GroundStationModel& model, Time now) {
   }
   const auto& vehicle = model.vehicle();
   int y = horizon;
-  const auto when = [](bool known, auto text) { return known ? text() : std::string(); };
+  const auto when = [](bool known, auto text) { return known ? text() : std::string("?"); };
   row(pane, y++, "height",
       when(vehicle.known() && pose.known(),
            [&] { return fmt::format("{:.2f} m {:+.1f}", vehicle->height, pose->v_WB_W.z()); }),

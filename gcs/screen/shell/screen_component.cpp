@@ -87,7 +87,6 @@ void ScreenComponent::advance(Time now) {
   steer(now);
   if (const auto outcome = sender_.advance(now)) {
     tell(outcome->accepted ? Severity::kSuccess : Severity::kDanger, outcome->text);
-    if (!outcome->accepted && controller_.sticks(now)) controller_.leave_sticks();
   }
   if (asker_.advance(now))
     tell(Severity::kDanger, "parameters: no answer; is the component there?");
@@ -119,7 +118,6 @@ void ScreenComponent::send(const Action& action, Time now) {
   const GroundCommand command = ground_command(action);
   const bool steers = action.kind == Action::Kind::kManual || action.kind == Action::Kind::kAssist;
   if (sender_.busy() && !is_urgent(action.kind)) {
-    if (steers) controller_.leave_sticks();
     return tell(Severity::kCaution,
                 fmt::format("{}: wait, {} is under way", command.name, sender_.name()));
   }

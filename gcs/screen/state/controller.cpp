@@ -312,17 +312,13 @@ std::vector<Action> Controller::accept_text(const Circumstances&) {
 
 std::vector<Action> Controller::steer(Deed deed) {
   if (deed == Deed::kLeave) {
-    leave_sticks();
+    keyboard_ = Keyboard::kFly;
     return {action(Action::Kind::kHover)};
   }
   const bool assisted = deed == Deed::kAssist;
   key_sticks_ = KeySticks(assisted);
   keyboard_ = Keyboard::kSticks;
   return {action(assisted ? Action::Kind::kAssist : Action::Kind::kManual)};
-}
-
-void Controller::leave_sticks() {
-  if (keyboard_ == Keyboard::kSticks) keyboard_ = Keyboard::kFly;
 }
 
 std::optional<Sticks> Controller::sticks(Time now) const {

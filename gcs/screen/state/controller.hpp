@@ -70,10 +70,10 @@ class Controller {
   const std::string& prompt() const { return prompt_; }
   const std::string& text() const { return text_; }
 
-  /// Nothing where nobody flies by keys. Centred where no key came for KeySticks::kHold.
+  /// Nothing where nobody flies by keys. Centred where no key came for KeySticks::kHold. Only Esc
+  /// leaves them, whatever the vehicle answers: keys that somebody steers with must not turn into
+  /// commands.
   std::optional<Sticks> sticks(Time now) const;
-  /// The vehicle does not let itself be flown by keys.
-  void leave_sticks();
 
  private:
   using Actions = std::vector<Action>;

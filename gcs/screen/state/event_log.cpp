@@ -16,15 +16,17 @@ std::string without_digits(std::string text) {
 }  // namespace
 
 void EventLog::add(Time time, Severity severity, const std::string& text) {
-  const bool comes_and_goes = severity == Severity::kCaution || severity == Severity::kSuccess;
+  const bool comes_and_goes = severity != Severity::kNote;
+  // "settles for 0.7 s more"; but each threshold of the battery counts.
+  const bool counts_down = severity == Severity::kCaution || severity == Severity::kSuccess;
   const std::size_t near = std::min(events_.size(), comes_and_goes ? kNear : 1);
   int times = 1;
   for (auto event = events_.rbegin(); event != events_.rbegin() + static_cast<std::ptrdiff_t>(near);
        ++event) {
     if (comes_and_goes && time - event->time > kSoon) break;
     const bool same =
-        comes_and_goes ? without_digits(event->text) == without_digits(text) : event->text == text;
-    if (!same) continue;
+        counts_down ? without_digits(event->text) == without_digits(text) : event->text == text;
+    if (!same || event->severity != severity) continue;
     times = event->times + 1;
     events_.erase(std::next(event).base());
     break;

@@ -19,8 +19,8 @@ struct Event {
 };
 
 /// What happened, the oldest first; the oldest is forgotten when it is full. The same again is one
-/// event that counts up, with the newest numbers in it: in a row, and for what comes and goes
-/// (kCaution, kSuccess) also with little between.
+/// event that counts up, with the newest numbers in it: notes in a row, and what comes and goes
+/// (anything else) also with little between.
 class EventLog {
  public:
   static constexpr std::size_t kCapacity = 500;

@@ -94,6 +94,19 @@ TEST(GroundStationModel, TheSameAgainIsCounted) {
   EXPECT_EQ(model.log().events().front().times, 5);
 }
 
+TEST(GroundStationModel, WhatComesAndGoesIsOneEventWithTheNewestNumbers) {
+  GroundStationModel model;
+  for (int i = 0; i < 30; ++i) {
+    const Time now = kBegin + i * 100ms;
+    model.note(now, Severity::kCaution, "settles for " + std::to_string(30 - i) + " s");
+    model.note(now, Severity::kSuccess, "ready");
+  }
+  EXPECT_THAT(texts(model), testing::ElementsAre("settles for 1 s", "ready"));
+  EXPECT_EQ(model.log().events().front().times, 30);
+  model.note(kBegin + 60s, Severity::kSuccess, "ready");
+  EXPECT_EQ(model.log().events().size(), 3u) << "long after, it is another one";
+}
+
 TEST(GroundStationModel, NamesTheComponentThatFellSilent) {
   GroundStationModel model;
   for (int i = 0; i <= 30; ++i) {
