@@ -38,7 +38,7 @@ struct MissionItem {
     kWaypoint,  ///< fly to `global`, in straight lines, or to `place`, around obstacles; then hold
     kHold,      ///< hover for `hold`
     kLand,      ///< where it is
-    kReturn,    ///< to the take-off point, and land
+    kReturn,    ///< to the take-off point, straight from a waypoint on Earth, and land
     kClaw,      ///< `open` it, or close it
   };
   Kind kind = Kind::kWaypoint;

@@ -142,6 +142,24 @@ Result<Acceptance> MissionRunner::fly_run(FlightDirector& director,
                    : director.fly(identity, waypoints, now, number);
 }
 
+/// As it came: a way that was straight over the Earth, where no map may lead home, is straight
+/// back.
+Result<Acceptance> MissionRunner::fly_back(FlightDirector& director, Time now) {
+  const auto is_waypoint = [](const MissionItem& item) { return item.kind == Kind::kWaypoint; };
+  const auto end = items_.rend(), begin = end - static_cast<std::ptrdiff_t>(memory_.item);
+  const auto last = std::find_if(begin, end, is_waypoint);
+  const FlightDirector::Status status = director.status(now);
+  if (last != end && last->global && status.mode == Mode::kHover) {
+    MissionWaypoint home;
+    home.position = status.home;
+    home.position.z() += status.height;
+    const auto identity = static_cast<std::uint64_t>(now.time_since_epoch().count());
+    const auto begun = director.fly_straight(identity, {home}, now, memory_.item + 1);
+    if (!begun.ok()) return begun;
+  }
+  return director.request(Request::go_back(), now);
+}
+
 Result<Acceptance> MissionRunner::begin(FlightDirector& director,
                                         const std::optional<LocalOrigin>& origin, Time now) {
   const MissionItem& item = items_[memory_.item];
@@ -162,7 +180,7 @@ Result<Acceptance> MissionRunner::begin(FlightDirector& director,
     case Kind::kLand:
       return director.request(Request::land(), now);
     case Kind::kReturn:
-      return director.request(Request::go_back(), now);
+      return fly_back(director, now);
     case Kind::kClaw:
       memory_.waiting_since = now;
       memory_.claw_open = item.open;

@@ -77,6 +77,7 @@ class MissionRunner {
                            Time now);
   Result<Acceptance> fly_run(FlightDirector& director, const std::optional<LocalOrigin>& origin,
                              Time now);
+  Result<Acceptance> fly_back(FlightDirector& director, Time now);
   std::size_t end_of_run(std::size_t first) const;
   bool is_finished(const FlightDirector::Status& status, Time now);
   bool goes_on(const FlightDirector::Status& status) const;

@@ -171,6 +171,24 @@ TEST(MissionRunner, FromTheMapOutToTheEarthAndBack) {
   EXPECT_LT(flight.vehicle.p_WB.norm(), 0.2);
 }
 
+TEST(MissionRunner, FromTheEarthItReturnsStraight) {
+  MissionFlight flight;
+  flight.take_off();
+  flight.planner = nullptr;  // there is no map out there
+  flight.director.set_guidance_problem("planner is silent");
+  flight.origin = LocalOrigin({47.4, 8.5, 400.0});
+  const Eigen::Vector3d far(15.0, 8.0, 4.0);
+  MissionItem hold = of(Kind::kHold);
+  hold.hold = 1.0;
+  flight.load({on_earth(flight.origin->to_global(far), 4.0), hold, of(Kind::kReturn)});
+  ASSERT_TRUE(flight.start().ok());
+  ASSERT_TRUE(flight.run_until([&] { return flight.runner.memory().item == 2; }));
+  EXPECT_LT((flight.vehicle.p_WB - far).norm(), 0.2);
+  ASSERT_TRUE(flight.run_to(State::kDone));
+  EXPECT_EQ(flight.mode(), Mode::kGrounded);
+  EXPECT_LT(flight.vehicle.p_WB.norm(), 0.2);
+}
+
 TEST(MissionRunner, AWaypointsSpeedIsKept) {
   MissionFlight flight;
   flight.take_off();

