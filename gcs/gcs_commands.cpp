@@ -16,6 +16,7 @@
 #include "gcs/command_options.hpp"
 #include "gcs/mission_commands.hpp"
 #include "gcs/mission_file_commands.hpp"
+#include "gcs/number_check.hpp"
 #include "gcs/screen/shell/screen_command.hpp"
 #include "gcs/status_view.hpp"
 #include "gcs/stick_client.hpp"
@@ -92,14 +93,14 @@ void add_stick(CLI::App& gcs, const Network& network) {
       "and\ndown, j l turn, m Manual or Assisted Manual, space lets go, Ctrl-C ends.");
   std::vector<CLI::Option*> sticks;
   const auto add = [&](const char* name, double& value, const char* what) {
-    sticks.push_back(verb->add_option(name, value, what)->check(CLI::Range(-1.0, 1.0)));
+    sticks.push_back(verb->add_option(name, value, what)->check(within(-1.0, 1.0)));
   };
   add("--forward", held->sticks.forward, "-1 to 1");
   add("--left", held->sticks.left, "-1 to 1");
   add("--up", held->sticks.up, "-1 to 1");
   add("--turn", held->sticks.turn, "-1 to 1, counter-clockwise");
   sticks.push_back(verb->add_option("--for", held->duration_s, "Hold them for so long [s]")
-                       ->check(CLI::Range(0.05, 3600.0)));
+                       ->check(within(0.05, 3600.0)));
   verb->add_flag("--assisted", held->sticks.assisted,
                  "Take over into Assisted Manual rather than Manual");
   network->add_to(*verb);

@@ -15,6 +15,7 @@
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
 #include "gcs/mission_clients.hpp"
+#include "gcs/number_check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -49,7 +50,7 @@ TransferParams with_patience(double seconds) {
 void add_patience(CLI::App& verb, double& patience) {
   verb.add_option("--patience", patience, "Without any headway, before it gives up [s]")
       ->capture_default_str()
-      ->check(CLI::Range(0.5, 600.0));
+      ->check(within(0.5, 600.0));
 }
 
 /// Items of a file that was found to be flyable, wherever the vehicle is.

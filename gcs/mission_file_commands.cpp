@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
+#include "gcs/number_check.hpp"
 #include "perception/map_io.hpp"
 
 namespace swiftlet {
@@ -41,16 +41,6 @@ MissionFile load(const std::string& file, const MissionReading& reading) {
   Result<MissionFile> mission = read_mission(file, reading);
   if (!mission.ok()) refuse(mission.error().reason);
   return std::move(*mission);
-}
-
-/// CLI11's own takes NaN.
-std::function<std::string(const std::string&)> within(double least, double most) {
-  return [least, most](const std::string& text) -> std::string {
-    double number = 0.0;
-    const bool is_number = CLI::detail::lexical_cast(text, number);
-    if (is_number && number >= least && number <= most) return "";
-    return fmt::format("'{}' is no number from {} to {}", text, least, most);
-  };
 }
 
 std::string at_line(const std::string& file, int line) {
