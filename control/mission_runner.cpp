@@ -239,9 +239,11 @@ std::string MissionRunner::claw_problem(Time now) const {
   const MissionItem& item = items_[memory_.item];
   if (item.kind != Kind::kClaw) return "";
   const char* what = item.open ? "open" : "close";
-  if (claw_ == ClawProgress::kFault)
+  const double waited = to_seconds(now - memory_.waiting_since.value_or(now));
+  if (claw_ == ClawProgress::kFault && waited > params_.claw_reaction) {
     return fmt::format("the claw does not {}: it has a fault", what);
-  if (to_seconds(now - memory_.waiting_since.value_or(now)) <= params_.claw_timeout) return "";
+  }
+  if (waited <= params_.claw_timeout) return "";
   return fmt::format("the claw does not {} within {:.1f} s; is it running?", what,
                      params_.claw_timeout);
 }

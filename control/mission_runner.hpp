@@ -32,6 +32,7 @@ class MissionRunner {
   struct Params {
     double gps_altitude = 15.24;  ///< of waypoints on Earth that have none [m]
     double claw_timeout = 5.0;    ///< a claw that takes longer does not move [s]
+    double claw_reaction = 0.5;   ///< until then it may tell of a fault that the command ends [s]
     std::size_t most_items = 1000;
   };
 

@@ -224,6 +224,24 @@ TEST(MissionRunner, TheClawIsWaitedForAndNotForEver) {
   EXPECT_THAT(flight.runner.memory().reason, HasSubstr("the claw does not close within 5.0 s"));
 }
 
+TEST(MissionRunner, AClawsFaultOfBeforeIsForgivenAndOneThatStaysIsNot) {
+  MissionFlight flight;
+  flight.take_off();
+  flight.load({claw(true), claw(false)});
+  ASSERT_TRUE(flight.start().ok());
+  flight.runner.set_claw(ClawProgress::kFault);  // on its way while the command was given
+  flight.runner.tick(flight.director, {}, flight.now);
+  EXPECT_EQ(flight.state(), State::kFlying);
+  flight.runner.set_claw(ClawProgress::kOpen);
+  flight.runner.tick(flight.director, {}, flight.now);
+  EXPECT_EQ(flight.runner.memory().item, 1U);
+  flight.runner.set_claw(ClawProgress::kFault);
+  const Time begin = flight.now;
+  ASSERT_TRUE(flight.run_to(State::kPaused, 3.0));
+  EXPECT_NEAR(to_seconds(flight.now - begin), 0.5, 0.05);
+  EXPECT_THAT(flight.runner.memory().reason, HasSubstr("the claw does not close: it has a fault"));
+}
+
 TEST(MissionRunner, WhatMakesNoSenseIsRefusedAsAWhole) {
   MissionFlight flight;
   FlightDirector::Params params = settled();
