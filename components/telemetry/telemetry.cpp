@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
+#include "components/battery_message.hpp"
 #include "components/runtime/supervision/staleness.hpp"
-#include "components/telemetry/discharge_estimate.hpp"
 #include "components/telemetry/health_summary.hpp"
 #include "components/telemetry/telemetry_message.hpp"
 #include "components/topics.hpp"
+#include "estimation/battery/battery_clock.hpp"
 
 namespace swiftlet {
 namespace {
@@ -40,7 +41,7 @@ class TelemetryComponent : public Component {
         topic::battery,
         [this](const sensor_msgs::msg::BatteryState& battery) {
           battery_.hear(battery, now());
-          discharge_.add(now(), static_cast<double>(battery.percentage()));
+          battery_clock_.add(from_msg(battery), now());
         },
         Need::kOptional);
     subscribe(topic::diagnostics, [this](const diagnostic_msgs::msg::DiagnosticArray& report) {
@@ -66,7 +67,7 @@ class TelemetryComponent : public Component {
     known.guard = guard_.get(now);
     known.mission = mission_.get(now);
     known.claw = claw_.get(now);
-    known.time_left = discharge_.time_left(now);
+    known.time_left = battery_clock_.seconds_left(now);
     known.health = health_.worst(now);
     telemetry_.publish(make_telemetry(now, known));
   }
@@ -78,7 +79,7 @@ class TelemetryComponent : public Component {
   Latest<swiftlet_msgs::msg::GuardStatus> guard_{topic::guard_status};
   Latest<swiftlet_msgs::msg::MissionState> mission_{topic::mission_state};
   Latest<swiftlet_msgs::msg::ClawState> claw_{topic::claw_state};
-  DischargeEstimate discharge_;
+  BatteryClock battery_clock_;
   HealthSummary health_;
   Publisher<swiftlet_msgs::msg::Telemetry> telemetry_;
 };

@@ -66,7 +66,7 @@ void paint_battery(const Pane& pane, const GroundStationModel& model, Time now) 
   }
   const bool fresh = battery.fresh(now);
   const std::string left =
-      fresh ? time_left_text(model.battery_seconds_left()) : age_text(battery.age(now)) + " ago";
+      fresh ? time_left_text(model.battery_seconds_left(now)) : age_text(battery.age(now)) + " ago";
   std::string text = fmt::format("{:.0f} % {}", battery->percentage * 100.0, left);
   if (pane.width() >= 100)
     text = fmt::format("{:.1f} V {:.1f} A  ", battery->voltage, battery->current) + text + " left";

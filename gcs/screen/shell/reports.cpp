@@ -41,11 +41,6 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   return report;
 }
 
-BatteryReport report_of(const sensor_msgs::msg::BatteryState& battery) {
-  // The current is negative while the battery is discharged (sensor_msgs/BatteryState).
-  return {battery.percentage(), battery.voltage(), -battery.current(), battery.charge()};
-}
-
 std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix) {
   using namespace sensor_msgs::msg;
   if (fix.status().status() == NavSatStatus_Constants::STATUS_NO_FIX) return std::nullopt;

@@ -11,7 +11,6 @@
 namespace swiftlet::screen {
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
-BatteryReport report_of(const sensor_msgs::msg::BatteryState& battery);
 std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix);
 /// Nothing where it is not that of a ground link.
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics);

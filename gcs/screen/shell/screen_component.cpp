@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "components/battery_message.hpp"
 #include "components/conversions.hpp"
 #include "components/manual_control_message.hpp"
 #include "gcs/screen/shell/ground_commands.hpp"
@@ -52,7 +53,7 @@ void ScreenComponent::listen() {
     sender_.hear(odometry);
   });
   subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
-    model_.hear(report_of(battery), now());
+    model_.hear(from_msg(battery), now());
   });
   subscribe(topic::gps_fix,
             [this](const sensor_msgs::msg::NavSatFix& fix) { model_.hear(fix_of(fix), now()); });

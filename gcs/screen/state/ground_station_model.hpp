@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "estimation/battery/battery_clock.hpp"
 #include "estimation/geodesy/local_origin.hpp"
 #include "estimation/geometry/rigid_body.hpp"
 #include "gcs/screen/drawing/map_picture.hpp"
-#include "gcs/screen/state/battery_clock.hpp"
 #include "gcs/screen/state/event_log.hpp"
 #include "gcs/screen/state/heard.hpp"
 
@@ -91,7 +91,9 @@ class GroundStationModel {
   const Heard<VehicleReport>& vehicle() const { return vehicle_; }
   const Heard<RigidBodyState>& pose() const { return pose_; }
   const Heard<BatteryReport>& battery() const { return battery_; }
-  std::optional<double> battery_seconds_left() const { return battery_clock_.seconds_left(); }
+  std::optional<double> battery_seconds_left(Time now) const {
+    return battery_clock_.seconds_left(now);
+  }
   const Heard<std::optional<GlobalPosition>>& fix() const { return fix_; }
   const Heard<GuardReport>& guard() const { return guard_; }
   const Heard<LinkReport>& link() const { return link_; }

@@ -138,31 +138,6 @@ TEST(GroundStationModel, SaysWhenTheBatteryFallsBelowAThreshold) {
                                                  "battery below 10 %"));
 }
 
-TEST(BatteryClock, DividesTheChargeByTheCurrent) {
-  BatteryClock clock;
-  EXPECT_FALSE(clock.seconds_left());
-  for (int i = 0; i < 20; ++i)
-    clock.add({0.5, 15.0, i % 2 == 0 ? 9.0 : 11.0, 2.0}, kBegin + i * 1s);
-  ASSERT_TRUE(clock.seconds_left());
-  EXPECT_NEAR(*clock.seconds_left(), 2.0 / 10.0 * 3600.0, 1.0);
-}
-
-TEST(BatteryClock, TakesTheSlopeWhereNoChargeIsMeasuredAndSaysNothingTooEarly) {
-  const double nan = std::nan("");
-  BatteryClock clock;
-  for (int i = 0; i <= 60; ++i) {
-    clock.add({0.8 - 0.001 * i, 15.0, nan, nan}, kBegin + i * 1s);
-    if (i < 5) {
-      EXPECT_FALSE(clock.seconds_left()) << i;
-    }
-  }
-  ASSERT_TRUE(clock.seconds_left());
-  EXPECT_NEAR(*clock.seconds_left(), 740.0, 5.0);
-  BatteryClock idle;
-  for (int i = 0; i <= 60; ++i) idle.add({0.8, 15.0, nan, nan}, kBegin + i * 1s);
-  EXPECT_FALSE(idle.seconds_left()) << "nothing is used, so nothing is known";
-}
-
 class Sizes : public testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(Sizes, ShowWhatMatters) {

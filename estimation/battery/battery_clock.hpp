@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "estimation/basics/time.hpp"
+#include "estimation/battery/discharge_estimate.hpp"
 
-namespace swiftlet::screen {
+namespace swiftlet {
 
 /// What a battery says of itself. What it does not measure is NaN, as in sensor_msgs/BatteryState.
 struct BatteryReport {
@@ -18,24 +19,23 @@ struct BatteryReport {
 };
 
 /// How long a battery lasts when the vehicle goes on as it did: the charge that is left over the
-/// mean current, or, where that is not measured, the percentage over its slope.
+/// mean current, or, where one of these is not measured, what the slope of the percentage says.
 class BatteryClock {
  public:
-  static constexpr Duration kWindow = std::chrono::seconds(30);
-  /// The slope counts from so much time on, and from so much used.
-  static constexpr Duration kShortest = std::chrono::seconds(10);
-  static constexpr double kLeastUsed = 0.005;
+  static constexpr Duration kWindow = std::chrono::seconds(30);  ///< of the mean current
 
   void add(const BatteryReport& report, Time now);
-  /// Nothing where it is not known [s].
-  std::optional<double> seconds_left() const;
+  /// Until it is empty [s]; nothing where that is not known, or nothing was heard for
+  /// DischargeEstimate::Params::longest_gap.
+  std::optional<double> seconds_left(Time now) const;
 
  private:
   struct Sample {
     Time time;
     BatteryReport report;
   };
-  std::deque<Sample> samples_;  // one a second
+  std::deque<Sample> samples_;  // one a second at most
+  DischargeEstimate slope_;
 };
 
-}  // namespace swiftlet::screen
+}  // namespace swiftlet

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "components/telemetry/discharge_estimate.hpp"
+#include "estimation/battery/discharge_estimate.hpp"
 
 #include <gtest/gtest.h>
 
