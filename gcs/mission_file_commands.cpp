@@ -97,10 +97,13 @@ void print_text(const std::string& file, const MissionFile& mission, const Missi
   for (const MissionFinding& finding : check.findings) {
     fmt::print("{}\n", describe(finding, file));
   }
-  fmt::print("{}: {} items, {:.0f} m, {:.0f} s; {} errors, {} warnings\n", file,
-             mission.items.size(), check.length, check.duration,
-             count(check, MissionFinding::Severity::kError),
-             count(check, MissionFinding::Severity::kWarning));
+  const auto number_of = [](auto number, const std::string& what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+  };
+  fmt::print("{}: {}, {:.0f} m, {:.0f} s; {}, {}\n", file, number_of(mission.items.size(), "item"),
+             check.length, check.duration,
+             number_of(count(check, MissionFinding::Severity::kError), "error"),
+             number_of(count(check, MissionFinding::Severity::kWarning), "warning"));
 }
 
 void validate(ValidateOptions options) {

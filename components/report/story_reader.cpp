@@ -205,11 +205,13 @@ class StoryReader {
 
   void note_unreadable(const TopicHealth& health) {
     if (health.unreadable == 0) return;
-    remark(fmt::format(
-        "{}: {} of {} messages cannot be read and are left out: they are to be {} in CDR and "
-        "are {}",
-        health.topic, health.unreadable, health.messages, listeners_.at(health.topic).type,
-        health.type.empty() ? "of no known type" : health.type));
+    const std::string& wanted = listeners_.at(health.topic).type;
+    const std::string why =
+        health.type == wanted ? fmt::format("they are no {} as this version has it", wanted)
+                              : fmt::format("they are to be {} in CDR and are {}", wanted,
+                                            health.type.empty() ? "of no known type" : health.type);
+    remark(fmt::format("{}: {} of {} messages cannot be read and are left out: {}", health.topic,
+                       health.unreadable, health.messages, why));
   }
 
   void read_map() {

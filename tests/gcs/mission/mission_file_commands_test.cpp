@@ -68,7 +68,7 @@ TEST_F(MissionFileCommands, ValidateSaysWhatIsWrongAndWhere) {
   const Outcome fenced = run({"validate", good, "--fence-radius", "2"});
   EXPECT_EQ(fenced.code, 1);
   EXPECT_THAT(fenced.out,
-              AllOf(HasSubstr("good.yaml:1: item 2: error: it is 3.0 m"), HasSubstr("1 errors")));
+              AllOf(HasSubstr("good.yaml:1: item 2: error: it is 3.0 m"), HasSubstr("1 error,")));
   const Outcome bad = run({"validate", file("bad.yaml", "items:\n  - lnad\n")});
   EXPECT_EQ(bad.code, 2);
   EXPECT_THAT(bad.err, AllOf(HasSubstr("bad.yaml:2: "), HasSubstr("'land'")));
