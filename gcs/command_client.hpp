@@ -6,10 +6,10 @@
 
 namespace swiftlet {
 
-/// Sends one command until it is acknowledged or two seconds have passed; then it ends the run.
+/// Sends one command until it is acknowledged or `patience` is over; then it ends the run.
 class CommandClient : public Component {
  public:
-  CommandClient(const ComponentContext& context, const GroundCommand& command);
+  CommandClient(const ComponentContext& context, const GroundCommand& command, Duration patience);
 
   const CommandOutcome& outcome() const { return outcome_; }
 

@@ -10,13 +10,15 @@
 
 #include "gcs/command_client.hpp"
 #include "gcs/command_watch.hpp"
+#include "gcs/number_check.hpp"
 
 namespace swiftlet {
 namespace {
 
-CommandOutcome until_accepted(const NetworkOptions& network, const GroundCommand& command) {
+CommandOutcome until_accepted(const NetworkOptions& network, const GroundCommand& command,
+                              Duration patience) {
   Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<CommandClient>("gcs", command);
+  const auto& client = host.emplace<CommandClient>("gcs", command, patience);
   host.run();
   return client.outcome();
 }
@@ -35,10 +37,13 @@ CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& co
 void CommandOptions::add_to(CLI::App& verb) {
   verb.add_flag("--wait", wait_, "Until it is done; exit code 1 where it comes to another end");
   verb.add_flag("--json", json_, "For scripts");
+  verb.add_option("--patience", patience_, "For the vehicle's answer; a bad link needs more [s]")
+      ->capture_default_str()
+      ->check(within(0.1, 3600.0));
 }
 
 void CommandOptions::send(const NetworkOptions& network, const GroundCommand& command) const {
-  CommandOutcome outcome = until_accepted(network, command);
+  CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_));
   const bool accepted = outcome.accepted;
   if (accepted && wait_) outcome = until_done(network, command);
   if (outcome.text.empty()) outcome.text = command.name + ": interrupted";

@@ -7,7 +7,7 @@
 
 namespace swiftlet {
 
-/// `--wait` and `--json`, for every verb that commands the vehicle.
+/// `--wait`, `--json` and `--patience`, for every verb that commands the vehicle.
 class CommandOptions {
  public:
   void add_to(CLI::App& verb);
@@ -18,6 +18,7 @@ class CommandOptions {
  private:
   bool wait_ = false;
   bool json_ = false;
+  double patience_ = to_seconds(CommandSender::kTimeout);  // [s]
 };
 
 }  // namespace swiftlet

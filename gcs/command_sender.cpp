@@ -14,10 +14,11 @@ constexpr Duration kResend = std::chrono::milliseconds(200);
 
 }  // namespace
 
-void CommandSender::begin(const GroundCommand& command, Time now, Time first_send) {
+void CommandSender::begin(const GroundCommand& command, Time now, Time first_send,
+                          Duration patience) {
   command_ = command;
   id_ = fmt::format("gcs-{}-{}-{}", getpid(), now.time_since_epoch().count(), ++count_);
-  deadline_ = first_send + kTimeout;
+  deadline_ = first_send + patience;
   next_send_ = first_send;
   outcome_.reset();
 }

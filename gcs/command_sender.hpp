@@ -49,8 +49,9 @@ class CommandSender {
 
   explicit CommandSender(Topics topics) : topics_(std::move(topics)) {}
 
-  /// Begins to send at `first_send`. A command that is still under way is given up.
-  void begin(const GroundCommand& command, Time now, Time first_send);
+  /// Begins to send at `first_send`, and gives up after `patience`. A command that is still under
+  /// way is given up.
+  void begin(const GroundCommand& command, Time now, Time first_send, Duration patience = kTimeout);
   void begin(const GroundCommand& command, Time now) { begin(command, now, now); }
   bool busy() const { return command_.has_value(); }
   /// What is under way; only where it is busy.
