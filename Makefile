@@ -4,7 +4,7 @@
 # Short names for what one does every day. Each target says what it is doing and repeats nothing
 # that is done already.
 
-.PHONY: help packages build program demo test test-full bench bench-middleware bench-chain bench-slam asan tsan fuzz format tidy clean
+.PHONY: help packages build program demo test test-full bench bench-middleware bench-chain bench-slam bench-screen asan tsan fuzz format tidy clean
 
 PROGRAM := build/release/swiftlet
 SCENARIO := components/sim/scenarios/office.yaml
@@ -18,6 +18,7 @@ help:
 	@echo "make bench      benchmarks;  make bench-middleware  beside Cyclone DDS, roscpp, Fast DDS"
 	@echo "make bench-chain  a phone's pose on its way to the motors, in real time"
 	@echo "make bench-slam   a scan on its way to its pose, while loops are closed"
+	@echo "make bench-screen  the ground station's screen: processor and memory over an hour, sped up"
 	@echo "make asan tsan  the tests under the address and the thread sanitizer"
 	@echo "make fuzz       libFuzzer on all that reads foreign bytes, FUZZ_SECONDS=60 each"
 	@echo "make format     clang-format over our files;  make tidy  clang-tidy"
@@ -75,6 +76,12 @@ bench-slam: build
 	@cmake --build --preset release --parallel $(JOBS) --target slam_live_bench
 	@echo "== bench: scan to pose while loops are closed (a minute and a half)"
 	@build/release/slam_live_bench
+
+bench-screen: build
+	@cmake --build --preset release --parallel $(JOBS) --target talking_vehicle
+	@echo "== bench: screen, a minute as it is, then an hour in six minutes"
+	@tests/bench/screen/measure build/release
+	@tests/bench/screen/measure build/release 360 10
 
 asan tsan: packages
 	@$(MAKE) --no-print-directory build/$@/build.ninja
