@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -47,18 +46,10 @@ std::string at_line(const std::string& file, int line) {
   return line > 0 ? fmt::format("{}:{}", file, line) : file;
 }
 
-/// One line for all remarks that say the same: a survey has hundreds.
 void print_remarks(std::FILE* stream, const std::string& file,
                    const std::vector<MissionRemark>& remarks) {
-  std::map<std::string, std::size_t> counts;
-  for (const MissionRemark& remark : remarks) ++counts[remark.text];
-  for (const MissionRemark& remark : remarks) {
-    const auto counted = counts.find(remark.text);
-    if (counted == counts.end()) continue;
-    const std::size_t others = counted->second - 1;
-    fmt::print(stream, "{}: note: {}{}\n", at_line(file, remark.line), remark.text,
-               others > 0 ? fmt::format(" (and {} more like it)", others) : "");
-    counts.erase(counted);
+  for (const MissionRemark& remark : merged(remarks)) {
+    fmt::print(stream, "{}: note: {}\n", at_line(file, remark.line), remark.text);
   }
 }
 
