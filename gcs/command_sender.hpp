@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "components/commander/mission_message.hpp"
 #include "components/topics.hpp"
@@ -24,8 +23,7 @@ struct GroundCommand {
   };
   std::optional<Place> go_to;
   std::optional<GlobalWaypoint> go_to_global;
-  std::vector<MissionWaypoint> mission;  ///< empty: none
-  bool is_mission() const { return go_to || go_to_global || !mission.empty(); }
+  bool is_mission() const { return go_to || go_to_global; }
 };
 
 /// How it ended, in a sentence.

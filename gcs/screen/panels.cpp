@@ -60,6 +60,10 @@ void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
       lines.push_back({vehicle->armed || !vehicle->ready ? "all well" : "ready to arm", kGood});
     }
     lines.push_back({fmt::format("{} components", model.components().size()), kDim});
+    const auto& mission = model.mission();
+    if (mission.fresh(now) && mission->state == MissionReport::State::kPaused) {
+      append(lines, describe_pause(*mission), pane.width(), kWarning);
+    }
     if (model.guard().fresh(now) && !model.guard()->acting) {
       lines.push_back({"guard watches", kDim});
     }
@@ -103,29 +107,6 @@ void paint_events(const Pane& pane, const EventLog& log) {
   }
   std::reverse(lines.begin(), lines.end());
   draw_tail(pane, lines);
-}
-
-void paint_waypoints(const Pane& pane, const Controller& controller) {
-  const WaypointList& list = controller.waypoints();
-  const bool edits = controller.keyboard() == Keyboard::kWaypoints ||
-                     controller.keyboard_below() == Keyboard::kWaypoints;
-  if (list.empty()) {
-    const auto lines =
-        wrap(edits ? "move the cursor with the arrows, then a: add" : "none; w puts some together",
-             pane.width());
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      pane.text(0, static_cast<int>(i), lines[i], kDim);
-    }
-    return;
-  }
-  std::vector<Line> lines;
-  for (std::size_t i = 0; i < list.items().size(); ++i) {
-    const Eigen::Vector3d& p = list.items()[i].position;
-    const bool selected = edits && static_cast<int>(i) == list.selected();
-    lines.push_back({fmt::format("{:>3} {:6.2f} {:6.2f} {:4.1f}", i + 1, p.x(), p.y(), p.z()),
-                     selected ? kInverse : kPlain});
-  }
-  draw_list(pane, lines, list.selected());
 }
 
 void paint_parameters(const Pane& pane, const ParameterList& list) {

@@ -7,6 +7,7 @@
 #include "gcs/screen/screen_painter.hpp"
 #include "gcs/screen/shell/curses_terminal.hpp"
 #include "gcs/screen/shell/error_lines.hpp"
+#include "gcs/screen/shell/mission_errand.hpp"
 #include "gcs/screen/shell/parameter_asker.hpp"
 #include "gcs/screen/state/controller.hpp"
 #include "gcs/screen/state/ground_station_model.hpp"
@@ -22,14 +23,27 @@ class ScreenComponent : public Component {
 
  private:
   void listen();
+  void listen_to_missions();
   void advance(Time now);
   void steer(Time now);
+  void tell(Severity severity, const std::string& text);
+
+  // screen_actions.cpp
   void carry_out(const Action& action, Time now);
   void send(const Action& action, Time now);
+  void begin(const Action& action, Time now);
   void ask(const Action& action, Time now);
   void hear(const swiftlet_msgs::msg::ParameterReply& reply);
-  void tell(Severity severity, const std::string& text);
-  Circumstances circumstances(Time now) const;
+  void take(const CommandOutcome& outcome, Time now);
+
+  // screen_missions.cpp
+  void bring(const Action& action, Time now);
+  void fetch(Time now);
+  void carry_mission(Time now);
+  void put_into_list(MissionFile mission);
+  void save(const Action& action);
+  void load(const Action& action);
+  std::size_t note(const std::string& file, const std::vector<MissionRemark>& remarks);
 
   CursesTerminal& terminal_;
   ErrorLines& errors_;
@@ -38,7 +52,12 @@ class ScreenComponent : public Component {
   MapPicture picture_;
   CommandSender sender_;
   ParameterAsker asker_;
+  MissionErrand errand_;
+  std::uint64_t fetched_over_ = 0;  // revision of the list when its successor was asked for
+  bool pauses_ = false;             // a mission, by the command that is under way
   Publisher<swiftlet_msgs::msg::ManualControl> manual_control_;
+  Publisher<swiftlet_msgs::msg::MissionPart> mission_parts_;
+  Publisher<swiftlet_msgs::msg::MissionFetch> mission_fetch_;
   bool steered_ = false;
   int ticks_ = 0;
 };
