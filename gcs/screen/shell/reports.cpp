@@ -6,6 +6,7 @@
 
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
+#include "gcs/mission_state_name.hpp"
 
 namespace swiftlet::screen {
 namespace {
@@ -38,6 +39,18 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   report.waypoint_count = static_cast<int>(status.waypoint_count());
   report.mission_done = status.mission_done();
   report.takeoff_point = from_msg(status.takeoff_point()).head<2>();
+  return report;
+}
+
+MissionReport report_of(const swiftlet_msgs::msg::MissionState& state) {
+  MissionReport report;
+  report.state = mission_state_name(state.state());
+  report.id = state.id();
+  report.count = static_cast<int>(state.count());
+  report.item = static_cast<int>(state.item());
+  report.reason = state.reason();
+  if (state.upload_refused()) report.refusal = state.upload_reason();
+  report.upload = state.upload_id();
   return report;
 }
 

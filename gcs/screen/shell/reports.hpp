@@ -11,6 +11,7 @@
 namespace swiftlet::screen {
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
+MissionReport report_of(const swiftlet_msgs::msg::MissionState& state);
 std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix);
 /// Nothing where it is not that of a ground link.
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics);

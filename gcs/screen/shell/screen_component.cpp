@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "components/battery_message.hpp"
 #include "components/conversions.hpp"
 #include "components/manual_control_message.hpp"
 #include "gcs/screen/shell/ground_commands.hpp"
@@ -34,7 +33,7 @@ bool is_urgent(Action::Kind kind) {
 
 ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal& terminal,
                                  ErrorLines& errors)
-    : Component(context),
+    : VehicleListener(context),
       terminal_(terminal),
       errors_(errors),
       sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain}),
@@ -45,25 +44,12 @@ ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal
 }
 
 void ScreenComponent::listen() {
-  subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
-    model_.hear(report_of(status), now());
-  });
   subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
     model_.hear(from_msg(odometry), now());
     sender_.hear(odometry);
   });
-  subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
-    model_.hear(from_msg(battery), now());
-  });
   subscribe(topic::gps_fix,
             [this](const sensor_msgs::msg::NavSatFix& fix) { model_.hear(fix_of(fix), now()); });
-  subscribe(topic::guard_status, [this](const swiftlet_msgs::msg::GuardStatus& guard) {
-    model_.hear(GuardReport{guard.acting(), guard.reason()}, now());
-  });
-  subscribe(topic::component_status, [this](const swiftlet_msgs::msg::ComponentStatus& status) {
-    if (!status.active()) return;
-    model_.hear_component(status.component_name(), {status.problems()}, now());
-  });
   subscribe(topic::diagnostics, [this](const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
     if (const auto link = link_of(diagnostics)) model_.hear(*link, now());
   });

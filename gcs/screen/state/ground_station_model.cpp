@@ -49,6 +49,8 @@ void GroundStationModel::note_changes(const VehicleReport& before, const Vehicle
   } else if (!before.ready && after.ready && !after.armed) {
     log_.add(now, Severity::kSuccess, "ready");
   }
+  // Of a mission that was uploaded, its items are told.
+  if (mission_.known() && mission_->flies()) return;
   if (after.waypoint != before.waypoint && after.waypoint > 1 && !after.mission_done) {
     log_.add(now, Severity::kNote,
              fmt::format("waypoint {} of {}", after.waypoint, after.waypoint_count));
@@ -96,6 +98,39 @@ void GroundStationModel::hear(const GuardReport& report, Time now) {
 
 void GroundStationModel::hear(const LinkReport& report, Time now) {
   link_.hear(report, now);
+}
+
+void GroundStationModel::hear(const MissionReport& report, Time now) {
+  if (mission_.known()) note_changes(*mission_, report, now);
+  mission_.hear(report, now);
+}
+
+void GroundStationModel::note_changes(const MissionReport& before, const MissionReport& after,
+                                      Time now) {
+  if (!after.refusal.empty() &&
+      (after.refusal != before.refusal || after.upload != before.upload)) {
+    log_.add(now, Severity::kDanger, after.refusal);
+  }
+  if (after.id != before.id || after.count != before.count) {
+    log_.add(now, Severity::kNote,
+             after.count > 0 ? fmt::format("mission of {} items uploaded", after.count)
+                             : "mission cleared");
+  }
+  if (after.state == before.state) {
+    if (after.flies() && after.item != before.item) {
+      log_.add(now, Severity::kNote,
+               fmt::format("mission: item {} of {}", after.item, after.count));
+    }
+  } else if (after.flies()) {
+    log_.add(now, Severity::kNote,
+             fmt::format("mission: flies from item {} of {}", after.item, after.count));
+  } else if (after.state == "paused") {
+    log_.add(
+        now, Severity::kCaution,
+        fmt::format("mission: paused at item {} of {}: {}", after.item, after.count, after.reason));
+  } else if (after.state == "done") {
+    log_.add(now, Severity::kSuccess, fmt::format("mission: all {} items done", after.count));
+  }
 }
 
 void GroundStationModel::hear_component(const std::string& name, const ComponentReport& report,

@@ -43,6 +43,18 @@ struct ComponentReport {
   std::vector<std::string> problems;
 };
 
+/// What the vehicle says of the mission that was uploaded.
+struct MissionReport {
+  std::string state;    ///< none, ready, flying, paused or done
+  std::string id;       ///< of its upload
+  int count = 0;        ///< items
+  int item = 0;         ///< that is flown, from 1; 0: none
+  std::string reason;   ///< why it is paused
+  std::string refusal;  ///< why an upload was refused; "" where none was
+  std::string upload;   ///< identity of the last upload, refused or not
+  bool flies() const { return state == "flying"; }
+};
+
 /// A topic's share of the radio link.
 struct TopicShare {
   std::string topic;
@@ -79,6 +91,7 @@ class GroundStationModel {
   void hear(const std::optional<GlobalPosition>& fix, Time now);
   void hear(const GuardReport& report, Time now);
   void hear(const LinkReport& report, Time now);
+  void hear(const MissionReport& report, Time now);
   void hear_component(const std::string& name, const ComponentReport& report, Time now);
   void hear_map(std::shared_ptr<const GridMap> map, Time now);
   void hear_path(std::vector<Eigen::Vector2d> path, Time now);
@@ -97,6 +110,7 @@ class GroundStationModel {
   const Heard<std::optional<GlobalPosition>>& fix() const { return fix_; }
   const Heard<GuardReport>& guard() const { return guard_; }
   const Heard<LinkReport>& link() const { return link_; }
+  const Heard<MissionReport>& mission() const { return mission_; }
   const std::map<std::string, Heard<ComponentReport>>& components() const { return components_; }
   const std::shared_ptr<const GridMap>& map() const { return map_; }
   /// Of what is known of the map.
@@ -113,6 +127,7 @@ class GroundStationModel {
  private:
   void look_at(const std::string& name, const Heard<ComponentReport>& component, Time now);
   void note_changes(const VehicleReport& before, const VehicleReport& after, Time now);
+  void note_changes(const MissionReport& before, const MissionReport& after, Time now);
 
   Heard<VehicleReport> vehicle_;
   Heard<RigidBodyState> pose_;
@@ -121,6 +136,7 @@ class GroundStationModel {
   Heard<std::optional<GlobalPosition>> fix_;
   Heard<GuardReport> guard_;
   Heard<LinkReport> link_{kBatteryStale};
+  Heard<MissionReport> mission_{kBatteryStale};
   std::map<std::string, Heard<ComponentReport>> components_;
   struct Problem {
     std::string text;    // "" where it is well

@@ -74,6 +74,60 @@ TEST(GroundStationModel, NotesEachChangeOfModeWithItsReason) {
                                    "Takeoff → Hover: at its height"));
 }
 
+TEST(GroundStationModel, NotesWhatBecomesOfTheMission) {
+  GroundStationModel model;
+  MissionReport mission;
+  mission.state = "none";
+  const auto hear = [&model, &mission] { model.hear(mission, kBegin); };
+  hear();
+  mission = {"ready", "a", 5, 0, "", "", "a"};
+  hear();
+  mission.state = "flying";
+  mission.item = 1;
+  hear();
+  hear();
+  mission.item = 3;
+  hear();
+  mission.state = "paused";
+  mission.reason = "the pilot took over";
+  hear();
+  mission.upload = "b";
+  mission.refusal = "mission refused: it is being flown";
+  hear();
+  hear();
+  mission.upload = "c";  // again, for the same reason
+  hear();
+  mission = {"done", "a", 5, 0, "", mission.refusal, "c"};
+  hear();
+  mission = {"none", "", 0, 0, "", mission.refusal, "c"};
+  hear();
+  EXPECT_THAT(texts(model),
+              testing::ElementsAre("mission of 5 items uploaded", "mission: flies from item 1 of 5",
+                                   "mission: item 3 of 5",
+                                   "mission: paused at item 3 of 5: the pilot took over",
+                                   "mission refused: it is being flown",
+                                   "mission: all 5 items done", "mission cleared"));
+  EXPECT_EQ(model.log().events()[4].times, 2);
+}
+
+TEST(GroundStationModel, ItemsOfAMissionAreToldRatherThanItsWaypoints) {
+  GroundStationModel model;
+  MissionReport mission{"flying", "a", 5, 2, "", "", "a"};
+  VehicleReport vehicle = report("Indoor Navigation");
+  vehicle.waypoint = 1;
+  vehicle.waypoint_count = 3;
+  model.hear(mission, kBegin);
+  model.hear(vehicle, kBegin);
+  vehicle.waypoint = 2;
+  model.hear(vehicle, kBegin + 1s);
+  EXPECT_THAT(texts(model), Not(Contains(HasSubstr("waypoint 2"))));
+  mission.state = "done";
+  model.hear(mission, kBegin + 2s);
+  vehicle.waypoint = 3;
+  model.hear(vehicle, kBegin + 3s);
+  EXPECT_THAT(texts(model), Contains("waypoint 3 of 3"));
+}
+
 TEST(GroundStationModel, TrailAndLogAreBounded) {
   GroundStationModel model;
   for (int i = 0; i < 20'000; ++i) {
