@@ -10,6 +10,9 @@
 
 namespace swiftlet {
 
+/// Of a take-off that nobody gave another: indoors, 4 ft in seed 004 [m].
+inline constexpr double kUsualAltitude = 1.2;
+
 /// What a person asks of the vehicle: a mode command, or where in the map or on Earth to fly.
 struct GroundCommand {
   std::string name;          ///< as it was typed

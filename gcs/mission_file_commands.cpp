@@ -14,13 +14,11 @@
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
 #include "gcs/number_check.hpp"
+#include "gcs/verb_end.hpp"
 #include "perception/map_io.hpp"
 
 namespace swiftlet {
 namespace {
-
-constexpr int kFailed = 1;
-constexpr int kUnusable = 2;
 
 struct ValidateOptions {
   std::string file;
@@ -32,8 +30,7 @@ struct ValidateOptions {
 };
 
 [[noreturn]] void refuse(const std::string& reason) {
-  fmt::print(stderr, "error: {}\n", reason);
-  throw CLI::RuntimeError(kUnusable);
+  end_verb(kUnusable, reason);
 }
 
 MissionFile load(const std::string& file, const MissionReading& reading) {
@@ -120,10 +117,7 @@ void convert(const std::string& input, const std::string& output, const MissionR
   const MissionFile mission = load(input, reading);
   print_remarks(stderr, input, mission.remarks);
   const auto written = write_mission(output, mission);
-  if (!written.ok()) {
-    fmt::print(stderr, "error: {}\n", written.error().reason);
-    throw CLI::RuntimeError(kFailed);
-  }
+  if (!written.ok()) end_verb(kFailed, written.error().reason);
   print_remarks(stderr, output, *written);
   fmt::print("{}: {} items\n", output, mission.items.size());
 }

@@ -42,7 +42,9 @@ void add_options(const CLI::App& verb, std::vector<std::string>& names) {
 bool names_components(const std::vector<std::string>& verbs) {
   static const std::vector<std::vector<std::string>> known{
       {"run"}, {"component", "info"}, {"param", "list"}, {"param", "dump"}};
-  return std::find(known.begin(), known.end(), verbs) != known.end();
+  const bool is_gcs = !verbs.empty() && verbs.front() == "gcs";  // which has param, too
+  const std::vector<std::string> rest(verbs.begin() + (is_gcs ? 1 : 0), verbs.end());
+  return std::find(known.begin(), known.end(), rest) != known.end();
 }
 
 std::vector<std::string> component_names() {

@@ -5,20 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 
 #include "gcs/screen/drawing/widgets.hpp"
 
 namespace swiftlet::screen {
 namespace {
-
-std::string clock_text(Time time) {
-  const auto seconds = static_cast<std::time_t>(
-      std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count());
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
-}
 
 /// Lines of a text in one style.
 void append(std::vector<Line>& lines, const std::string& text, int columns, Style style) {
@@ -97,9 +88,7 @@ void paint_events(const Pane& pane, const EventLog& log) {
   // Only those that can be seen, from the newest on.
   for (auto event = log.events().rbegin(); event != log.events().rend(); ++event) {
     if (static_cast<int>(lines.size()) >= pane.height()) break;
-    std::string text = event->text;
-    if (event->times > 1) text += fmt::format(" ×{}", event->times);
-    const std::vector<std::string> wrapped = wrap(text, pane.width() - kClock);
+    const std::vector<std::string> wrapped = wrap(text_of(*event), pane.width() - kClock);
     for (std::size_t i = wrapped.size(); i-- > 0;) {
       const std::string before = i == 0 ? clock_text(event->time) + " " : std::string(kClock, ' ');
       lines.push_back({before + wrapped[i], style_of(event->severity)});

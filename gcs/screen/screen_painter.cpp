@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "estimation/geometry/so3.hpp"
 #include "gcs/screen/drawing/braille.hpp"
 #include "gcs/screen/drawing/map_drawing.hpp"
 #include "gcs/screen/drawing/widgets.hpp"
+#include "gcs/screen/map_scene.hpp"
 #include "gcs/screen/panels.hpp"
 
 namespace swiftlet::screen {
@@ -68,17 +68,7 @@ std::string map_title(const GroundStationModel& model, const Controller& control
 }
 
 MapScene scene_of(const GroundStationModel& model, const Controller& controller, Time now) {
-  MapScene scene;
-  const auto& pose = model.pose();
-  if (pose.known() && pose->p_WB.allFinite()) {
-    scene.vehicle = {pose->p_WB.head<2>(), yaw_of(pose->q_WB), !pose.fresh(now)};
-  }
-  if (model.vehicle().known() && model.vehicle()->in_flight) {
-    scene.pad = model.vehicle()->takeoff_point;
-  }
-  if (model.path().known() && model.vehicle().known() && model.vehicle()->navigates)
-    scene.path = *model.path();
-  scene.trail = model.trail();
+  MapScene scene = scene_of(model, now);
   const auto& items = controller.waypoints().items();
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto place = place_in_map(items[i].item, model.origin());

@@ -189,7 +189,7 @@ TEST_F(ScreenFlight, AWholeMissionIsFlownWithTheKeyboard) {
   ends_in("Indoor Navigation", "Hover", Seconds(40.0));
   EXPECT_LT(distance(status(), 2.0, 3.0), 0.4);
   screen_->resize(200, 60);
-  ASSERT_TRUE(screen_->shows("mission done", kAnswer));
+  ASSERT_TRUE(screen_->shows("items done", kAnswer));
   land();
   quit();
   stop_vehicle();

@@ -7,6 +7,7 @@
 
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
+#include "gcs/mission_state_name.hpp"
 
 namespace swiftlet::screen {
 namespace {
@@ -51,6 +52,9 @@ MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission) {
   report.item = static_cast<int>(mission.item());
   report.count = static_cast<int>(mission.count());
   report.reason = mission.reason();
+  report.id = mission.id();
+  if (mission.upload_refused()) report.refusal = mission.upload_reason();
+  report.upload = mission.upload_id();
   return report;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gcs/screen/shell/screen_component.hpp"
 
-#include "components/battery_message.hpp"
 #include "components/conversions.hpp"
 #include "components/fix_message.hpp"
 #include "components/manual_control_message.hpp"
@@ -21,7 +20,7 @@ constexpr int kPictureEvery = 2;
 
 ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal& terminal,
                                  ErrorLines& errors)
-    : Component(context),
+    : VehicleListener(context),
       terminal_(terminal),
       errors_(errors),
       sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain}),
@@ -30,34 +29,20 @@ ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal
   mission_parts_ = advertise(topic::mission_upload);
   mission_fetch_ = advertise(topic::mission_fetch);
   listen();
-  listen_to_missions();
   every(kTick, [this](Time now) { advance(now); });
 }
 
 void ScreenComponent::listen() {
-  subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
-    model_.hear(report_of(status), now());
-  });
   subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
     model_.hear(from_msg(odometry), now());
     sender_.hear(odometry);
   });
-  subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
-    model_.hear(from_msg(battery), now());
-  });
   subscribe(topic::gps_fix,
             [this](const sensor_msgs::msg::NavSatFix& fix) { model_.hear(from_msg(fix), now()); });
-  subscribe(topic::guard_status, [this](const swiftlet_msgs::msg::GuardStatus& guard) {
-    model_.hear(GuardReport{guard.acting(), guard.reason()}, now());
-  });
   subscribe(
       topic::claw_state,
       [this](const swiftlet_msgs::msg::ClawState& claw) { model_.hear(report_of(claw), now()); },
       Need::kOptional);
-  subscribe(topic::component_status, [this](const swiftlet_msgs::msg::ComponentStatus& status) {
-    if (!status.active()) return;
-    model_.hear_component(status.component_name(), {status.problems()}, now());
-  });
   subscribe(topic::diagnostics, [this](const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
     if (const auto link = link_of(diagnostics)) model_.hear(*link, now());
   });
@@ -71,20 +56,14 @@ void ScreenComponent::listen() {
   subscribe(topic::parameter_reply, [this](const swiftlet_msgs::msg::ParameterReply& reply) {
     if (asker_.hear(reply)) hear(reply);
   });
-}
-
-void ScreenComponent::listen_to_missions() {
-  subscribe(
-      topic::mission_state,
-      [this](const swiftlet_msgs::msg::MissionState& state) {
-        model_.hear(report_of(state), now());
-        errand_.hear(state, now());
-      },
-      Need::kOptional);
   subscribe(
       topic::mission_download,
       [this](const swiftlet_msgs::msg::MissionPart& part) { errand_.hear(part, now()); },
       Need::kOptional);
+}
+
+void ScreenComponent::heard(const swiftlet_msgs::msg::MissionState& state) {
+  errand_.hear(state, now());
 }
 
 void ScreenComponent::advance(Time now) {

@@ -9,21 +9,21 @@
 #include "gcs/screen/shell/error_lines.hpp"
 #include "gcs/screen/shell/mission_errand.hpp"
 #include "gcs/screen/shell/parameter_asker.hpp"
+#include "gcs/screen/shell/vehicle_listener.hpp"
 #include "gcs/screen/state/controller.hpp"
-#include "gcs/screen/state/ground_station_model.hpp"
 
 namespace swiftlet::screen {
 
 /// The ground station's screen: what is heard goes into the model, keys into the controller, what
 /// it asks for to the vehicle, and ten times a second a picture to the terminal.
-class ScreenComponent : public Component {
+class ScreenComponent : public VehicleListener {
  public:
   /// Terminal and error lines are used only while the run lasts.
   ScreenComponent(const ComponentContext& context, CursesTerminal& terminal, ErrorLines& errors);
 
  private:
   void listen();
-  void listen_to_missions();
+  void heard(const swiftlet_msgs::msg::MissionState& state) override;
   void advance(Time now);
   void steer(Time now);
   void tell(Severity severity, const std::string& text);
@@ -47,7 +47,6 @@ class ScreenComponent : public Component {
 
   CursesTerminal& terminal_;
   ErrorLines& errors_;
-  GroundStationModel model_;
   Controller controller_;
   MapPicture picture_;
   CommandSender sender_;

@@ -110,21 +110,28 @@ void GroundStationModel::hear(const MissionReport& report, Time now) {
 void GroundStationModel::note_changes(const MissionReport& before, const MissionReport& after,
                                       Time now) {
   using State = MissionReport::State;
-  const bool is_same = before.state == after.state && before.item == after.item;
-  if (is_same && before.count == after.count) return;
-  switch (after.state) {
-    case State::kNone:
-      return log_.add(now, Severity::kNote, "the vehicle has no mission any more");
-    case State::kReady:
-      return log_.add(now, Severity::kNote,
-                      fmt::format("the vehicle has a mission of {}", after.count));
-    case State::kFlying:
-      return log_.add(now, Severity::kNote,
-                      fmt::format("mission: item {} of {}", after.item, after.count));
-    case State::kPaused:
-      return log_.add(now, Severity::kCaution, describe_pause(after));
-    case State::kDone:
-      return log_.add(now, Severity::kSuccess, "mission done");
+  if (!after.refusal.empty() &&
+      (after.refusal != before.refusal || after.upload != before.upload)) {
+    log_.add(now, Severity::kDanger, after.refusal);
+  }
+  if (after.id != before.id || after.count != before.count) {
+    const std::string what =
+        mission_.known() ? "mission of {} items uploaded" : "the vehicle has a mission of {} items";
+    log_.add(now, Severity::kNote,
+             after.count > 0 ? fmt::format(fmt::runtime(what), after.count) : "mission cleared");
+  }
+  if (after.state == before.state) {
+    if (after.state == State::kFlying && after.item != before.item) {
+      log_.add(now, Severity::kNote,
+               fmt::format("mission: item {} of {}", after.item, after.count));
+    }
+  } else if (after.state == State::kFlying) {
+    log_.add(now, Severity::kNote,
+             fmt::format("mission: flies from item {} of {}", after.item, after.count));
+  } else if (after.state == State::kPaused) {
+    log_.add(now, Severity::kCaution, describe_pause(after));
+  } else if (after.state == State::kDone) {
+    log_.add(now, Severity::kSuccess, fmt::format("mission: all {} items done", after.count));
   }
 }
 

@@ -75,6 +75,42 @@ TEST(GroundStationModel, NotesEachChangeOfModeWithItsReason) {
                                    "Takeoff → Hover: at its height"));
 }
 
+TEST(GroundStationModel, NotesWhatBecomesOfTheMission) {
+  using State = MissionReport::State;
+  GroundStationModel model;
+  MissionReport mission;
+  const auto hear = [&model, &mission] { model.hear(mission, kBegin); };
+  hear();
+  mission = {State::kReady, 0, 5, "", "a", "", "a"};
+  hear();
+  mission.state = State::kFlying;
+  mission.item = 1;
+  hear();
+  hear();
+  mission.item = 3;
+  hear();
+  mission.state = State::kPaused;
+  mission.reason = "the pilot took over";
+  hear();
+  mission.upload = "b";
+  mission.refusal = "mission refused: it is being flown";
+  hear();
+  hear();
+  mission.upload = "c";  // again, for the same reason
+  hear();
+  mission = {State::kDone, 0, 5, "", "a", mission.refusal, "c"};
+  hear();
+  mission = {State::kNone, 0, 0, "", "", mission.refusal, "c"};
+  hear();
+  EXPECT_THAT(
+      texts(model),
+      testing::ElementsAre("mission of 5 items uploaded", "mission: flies from item 1 of 5",
+                           "mission: item 3 of 5", "mission paused at item 3: the pilot took over",
+                           "mission refused: it is being flown", "mission: all 5 items done",
+                           "mission cleared"));
+  EXPECT_EQ(model.log().events()[4].times, 2);
+}
+
 TEST(GroundStationModel, TrailAndLogAreBounded) {
   GroundStationModel model;
   for (int i = 0; i < 20'000; ++i) {
@@ -165,9 +201,10 @@ TEST(GroundStationModel, TellsHowTheVehiclesMissionGoes) {
   EXPECT_THAT(paused, HasSubstr("mission paused at item 3: manual"));
   model.hear(mission(State::kDone, 0), kBegin + 4s);
   EXPECT_THAT(texts(model),
-              testing::IsSupersetOf({"the vehicle has a mission of 5", "mission: item 1 of 5",
-                                     "mission: item 3 of 5",
-                                     "mission paused at item 3: manual control", "mission done"}));
+              testing::IsSupersetOf({"the vehicle has a mission of 5 items",
+                                     "mission: flies from item 1 of 5", "mission: item 3 of 5",
+                                     "mission paused at item 3: manual control",
+                                     "mission: all 5 items done"}));
 }
 
 TEST(GroundStationModel, AWayWithinAMissionIsNotTheMission) {
