@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/runtime/component.hpp"
+#include "gcs/verbs/mode_names.hpp"
 
 namespace swiftlet {
 namespace {
@@ -79,6 +80,7 @@ std::vector<std::string> completions(const CLI::App& app, const std::vector<std:
   } else {
     add_verbs(*verb, names);
     if (names_components(verbs)) names = component_names();
+    if (verbs == std::vector<std::string>{"gcs", "mode"}) names = mode_words();
   }
   const auto differs = [&begun](const std::string& name) {
     return name.compare(0, begun.size(), begun) != 0;

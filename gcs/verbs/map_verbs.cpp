@@ -114,7 +114,8 @@ void add_save(CLI::App& group, const Network& network) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = group.add_subcommand(
       "save", "Write it: .pgm with a .yaml beside it, as the map_server of ROS does, or .png");
-  verb->add_option("file", options->file, "MAP.pgm or .png; it is replaced")->required();
+  verb->add_option("file", options->file, "MAP.pgm, whose MAP.yaml is replaced with it, or MAP.png")
+      ->required();
   add_patience(*verb, *options);
   verb->add_flag("--json", options->json, "For scripts");
   network->add_to(*verb);

@@ -10,6 +10,7 @@
 
 #include "components/runtime/config/nearest_word.hpp"
 #include "control/mode_machine.hpp"
+#include "gcs/command_name.hpp"
 #include "swiftlet_msgs.h"
 
 namespace swiftlet {
@@ -73,6 +74,14 @@ Result<std::uint8_t> command_of_mode(const std::string& name) {
   return Error{fmt::format("there is no mode '{}'; {}there are {}, and return", name,
                            near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
                            fmt::join(names, ", "))};
+}
+
+std::vector<std::string> mode_words() {
+  std::vector<std::string> words{"return"};
+  for (const Entry& entry : entries()) {
+    if (entry.code) words.push_back(command_name(*entry.code));
+  }
+  return words;
 }
 
 }  // namespace swiftlet

@@ -43,6 +43,11 @@ TEST(ModeNames, EveryModeButGroundedIsKnownByTheNameThatItIsShownWith) {
   }
 }
 
+TEST(ModeNames, EachWordThatIsOfferedIsTheVerbOfItsMode) {
+  EXPECT_EQ(mode_words().size(), 7u);
+  for (const std::string& word : mode_words()) EXPECT_EQ(meant_by(word), word);
+}
+
 TEST(ModeNames, ThoseThatNeedAPlaceNameTheVerbThatTakesIt) {
   EXPECT_THAT(meant_by("GPS Guidance"), HasSubstr("swiftlet gcs gps LATITUDE LONGITUDE"));
   EXPECT_THAT(meant_by("gps"), HasSubstr("swiftlet gcs gps"));
