@@ -14,6 +14,7 @@ class CommandOptions {
   /// Sends the command, and with `--wait` stays until it is done; says how it went. Throws
   /// CLI::RuntimeError(1) where it was refused, was not answered or has failed.
   void send(const NetworkOptions& network, const GroundCommand& command) const;
+  bool json() const { return json_; }
 
  private:
   bool wait_ = false;

@@ -65,15 +65,13 @@ void CommandSender::send(Time now) {
     if (topics_.waypoints.matched_readers() == 0) return;
     if (command_->go_to_global) {
       topics_.waypoints.publish(make_mission(now, id_, {*command_->go_to_global}));
-    } else if (command_->go_to) {
+    } else {
       auto& place = *command_->go_to;
       if (!place.z && !height_) return;
       // The height at the first sending, so that each repetition is the same mission.
       if (!place.z) place.z = height_;
       topics_.waypoints.publish(
           make_mission(now, id_, {MissionWaypoint{{place.x, place.y, *place.z}, std::nullopt}}));
-    } else {
-      topics_.waypoints.publish(make_mission(now, id_, command_->mission));
     }
   } else {
     if (topics_.mode.matched_readers() == 0) return;

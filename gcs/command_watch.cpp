@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "components/mode_message.hpp"
-#include "gcs/mission_clients.hpp"
+#include "gcs/mission_state_name.hpp"
 
 namespace swiftlet {
 namespace {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/introspection/introspection_commands.hpp"
 #include "components/runtime/command_line.hpp"
 #include "gcs/command_options.hpp"
 #include "gcs/mission_commands.hpp"
@@ -20,13 +21,13 @@
 #include "gcs/screen/shell/screen_command.hpp"
 #include "gcs/status_view.hpp"
 #include "gcs/stick_client.hpp"
+#include "gcs/verb_end.hpp"
+#include "gcs/verbs/verbs.hpp"
 
 namespace swiftlet {
 namespace {
 
 namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
-
-constexpr double kDefaultAltitude = 1.2;  // indoors: 4 ft in seed 004 [m]
 
 using Network = std::shared_ptr<NetworkOptions>;
 
@@ -39,14 +40,11 @@ std::string finite(const std::string& text) {
 
 void show_status(const NetworkOptions& network, bool json) {
   Host host(network.host_options("gcs"));
-  auto& client = host.emplace<StatusClient>("gcs", false);
+  auto& client = host.emplace<StatusClient>("gcs");
   host.run();
   if (!client.view().status) {
-    fmt::print(stderr,
-               "no vehicle answers in domain {}; is a commander running there, and is "
-               "--vehicle right?\n",
-               host.domain());
-    throw CLI::RuntimeError(1);
+    fmt::print(stderr, "{}\n", nobody_answers(host.domain()));
+    throw CLI::RuntimeError(kFailed);
   }
   fmt::print("{}\n", json ? to_json(client.view()) : describe(client.view()));
 }
@@ -155,7 +153,7 @@ void add_gcs_commands(CLI::App& gcs) {
   add_simple(*claw, network, "open", "Let go", command::CLAW_OPEN, "claw ");
   add_simple(*claw, network, "close", "Take hold", command::CLAW_CLOSE, "claw ");
 
-  auto altitude = std::make_shared<double>(kDefaultAltitude);
+  auto altitude = std::make_shared<double>(kUsualAltitude);
   CLI::App* takeoff = gcs.add_subcommand("takeoff", "Climb and hover");
   takeoff->add_option("altitude", *altitude, "Above the take-off point [m]")
       ->capture_default_str()
@@ -193,13 +191,24 @@ void add_gcs_commands(CLI::App& gcs) {
   status->callback([network, json] { show_status(*network, *json); });
 
   CLI::App* watch = gcs.add_subcommand("watch", "A line a second, until Ctrl-C");
+  const auto watch_json = std::make_shared<bool>(false);
+  watch->add_flag("--json", *watch_json, "For scripts: an object a line");
   network->add_to(*watch);
-  watch->callback([network] {
+  watch->callback([network, watch_json] {
     Host host(network->host_options("gcs"));
     host.emplace<Heartbeat>("heartbeat");
-    host.emplace<StatusClient>("gcs", true);
+    host.emplace<StatusClient>("gcs", *watch_json ? to_json_line : one_line);
     host.run();
   });
+
+  add_mode_verb(gcs, network);
+  add_follow_verb(gcs, network);
+  add_waypoint_verbs(gcs, network);
+  add_map_verbs(gcs, network);
+  add_cloud_verbs(gcs, network);
+  add_battery_verb(gcs, network);
+  add_log_verb(gcs, network);
+  add_param_commands(gcs);
 }
 
 }  // namespace swiftlet

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "control/mission_runner.hpp"
-
 namespace swiftlet {
 namespace {
 
@@ -64,24 +62,6 @@ void DownloadClient::advance(Time now) {
   if (download_.progress().state != TransferProgress::State::kRunning) {
     stop(exit_code(download_.progress()));
   }
-}
-
-MissionStateClient::MissionStateClient(const ComponentContext& context, Duration patience)
-    : Component(context) {
-  subscribe(topic::mission_state, [this](const swiftlet_msgs::msg::MissionState& state) {
-    if (!state_) stop(0);
-    state_ = state;
-  });
-  call_at(now() + patience, [this](Time) { stop(1); });
-}
-
-std::string mission_state_name(std::uint8_t state) {
-  for (const auto known :
-       {MissionRunner::State::kNone, MissionRunner::State::kReady, MissionRunner::State::kFlying,
-        MissionRunner::State::kPaused, MissionRunner::State::kDone}) {
-    if (static_cast<std::uint8_t>(known) == state) return to_string(known);
-  }
-  return "a state that this program does not know";
 }
 
 }  // namespace swiftlet

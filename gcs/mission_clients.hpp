@@ -44,18 +44,4 @@ class DownloadClient : public Component {
   Publisher<swiftlet_msgs::msg::MissionFetch> fetch_;
 };
 
-/// Waits for what the vehicle says of its mission, and ends the run: 0 once it was heard, 1 after
-/// `patience` without.
-class MissionStateClient : public Component {
- public:
-  MissionStateClient(const ComponentContext& context, Duration patience);
-  const std::optional<swiftlet_msgs::msg::MissionState>& state() const { return state_; }
-
- private:
-  std::optional<swiftlet_msgs::msg::MissionState> state_;
-};
-
-/// "none", "ready", "flying", "paused" or "done".
-std::string mission_state_name(std::uint8_t state);
-
 }  // namespace swiftlet

@@ -3,19 +3,19 @@
 #include "gcs/mission_commands.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "components/commander/mission_message.hpp"
-#include "components/terminal/terminal.hpp"
+#include "components/topics.hpp"
 #include "gcs/command_options.hpp"
-#include "gcs/mission/mission_check.hpp"
+#include "gcs/first_message.hpp"
 #include "gcs/mission/mission_file.hpp"
-#include "gcs/mission_clients.hpp"
-#include "gcs/number_check.hpp"
+#include "gcs/mission_exchange.hpp"
+#include "gcs/mission_state_name.hpp"
+#include "gcs/verb_end.hpp"
 
 namespace swiftlet {
 namespace {
@@ -24,109 +24,37 @@ namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
 
 using Network = std::shared_ptr<NetworkOptions>;
 
-constexpr int kFailed = 1;
-constexpr int kUnusable = 2;
-
-[[noreturn]] void end(int code, const std::string& reason) {
-  fmt::print(stderr, "error: {}\n", reason);
-  throw CLI::RuntimeError(code);
-}
-
-/// How far a transfer is, in the terminal's status line.
-TellProgress on_terminal(Terminal& terminal, const char* what) {
-  return [&terminal, what](const TransferProgress& progress) {
-    terminal.show(progress.count == 0
-                      ? fmt::format("{}: looking for the vehicle", what)
-                      : fmt::format("{}: {} of {} items", what, progress.done, progress.count));
-  };
-}
-
-TransferParams with_patience(double seconds) {
-  TransferParams params;
-  params.patience = from_seconds(seconds);
-  return params;
-}
-
-void add_patience(CLI::App& verb, double& patience) {
-  verb.add_option("--patience", patience, "Without any headway, before it gives up [s]")
-      ->capture_default_str()
-      ->check(within(0.5, 600.0));
-}
-
-/// Items of a file that was found to be flyable, wherever the vehicle is.
-MissionInbox::Items flyable_items(const std::string& file) {
-  const Result<MissionFile> mission = read_mission(file);
-  if (!mission.ok()) end(kUnusable, mission.error().reason);
-  for (const MissionRemark& remark : mission->remarks) {
-    fmt::print(stderr, "{}:{}: note: {}\n", file, remark.line, remark.text);
-  }
-  MissionCheckParams params;
-  params.on_ground = false;  // that is not known here; the vehicle refuses what it cannot fly
-  const MissionCheck check = check_mission(*mission, params);
-  for (const MissionFinding& finding : check.findings) {
-    fmt::print(stderr, "{}\n", describe(finding, file));
-  }
-  if (check.has_errors()) end(kUnusable, "the mission was not sent");
-  MissionInbox::Items items;
-  for (const MissionItem& item : items_of(*mission)) items.push_back(to_msg(item));
-  return items;
-}
-
 void upload(const NetworkOptions& network, const std::string& file, double patience) {
-  MissionInbox::Items items = flyable_items(file);
-  Terminal terminal;
-  Host host(network.host_options("gcs"));
-  const Time now(std::chrono::system_clock::now().time_since_epoch());
-  const std::string id = fmt::format("gcs-{}-{}", getpid(), now.time_since_epoch().count());
+  MissionInbox::Items items = flyable_items(mission_of_file(file), file);
   const std::size_t count = items.size();
-  const auto& client = host.emplace<UploadClient>(
-      "gcs", id, std::move(items), with_patience(patience), on_terminal(terminal, "upload"));
-  const int code = host.run();
-  terminal.clear();
-  if (code == 0 && client.progress().state == TransferProgress::State::kDone) {
-    fmt::print("upload: {} items, read back\n", count);
-    return;
-  }
-  const std::string& reason = client.progress().reason;
-  end(kFailed, reason.empty() ? "interrupted; the vehicle has the mission as a whole or not at all"
-                              : reason);
+  send_mission(network, std::move(items), patience);
+  fmt::print("upload: {} items, read back\n", count);
 }
 
 void download(const NetworkOptions& network, const std::string& file, double patience) {
-  if (const auto form = mission_form_of(file); !form.ok()) end(kUnusable, form.error().reason);
-  Terminal terminal;
-  Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<DownloadClient>("gcs", with_patience(patience),
-                                                    on_terminal(terminal, "download"));
-  host.run();
-  terminal.clear();
-  const MissionDownload& download = client.download();
-  if (download.progress().state != TransferProgress::State::kDone) {
-    const std::string& reason = download.progress().reason;
-    end(kFailed, reason.empty() ? "interrupted" : reason);
+  if (const auto form = mission_form_of(file); !form.ok()) {
+    end_verb(kUnusable, form.error().reason);
   }
-  MissionFile mission;
-  for (const auto& message : download.items()) {
-    const auto item = from_msg(message);
-    if (!item.ok()) end(kFailed, item.error().reason);
-    mission.items.push_back({*item, 0});
-  }
+  const MissionFile mission = fetch_mission(network, patience);
+  if (mission.items.empty()) end_verb(kFailed, "the vehicle has no mission");
   const auto written = write_mission(file, mission);
-  if (!written.ok()) end(kFailed, written.error().reason);
+  if (!written.ok()) end_verb(kFailed, written.error().reason);
   for (const MissionRemark& loss : *written) fmt::print(stderr, "{}: note: {}\n", file, loss.text);
   fmt::print("{}: {} items\n", file, mission.items.size());
 }
 
 void show_state(const NetworkOptions& network, bool as_json) {
   Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<MissionStateClient>("gcs", std::chrono::milliseconds(1800));
+  const auto& client = host.emplace<FirstMessage<swiftlet_msgs::msg::MissionState>>(
+      "gcs", topic::mission_state, std::chrono::milliseconds(1800));
   host.run();
-  if (!client.state()) {
-    end(kFailed, fmt::format("no vehicle says what mission it has in domain {}; does a commander "
-                             "run there, and is --vehicle right?",
-                             host.domain()));
+  if (!client.message()) {
+    end_verb(kFailed,
+             fmt::format("no vehicle says what mission it has in domain {}; does a commander "
+                         "run there, and is --vehicle right?",
+                         host.domain()));
   }
-  const auto& state = *client.state();
+  const auto& state = *client.message();
   const std::string name = mission_state_name(state.state());
   if (as_json) {
     const nlohmann::json json = {{"state", name},

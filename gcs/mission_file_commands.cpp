@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,13 +14,11 @@
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
 #include "gcs/number_check.hpp"
+#include "gcs/verb_end.hpp"
 #include "perception/map_io.hpp"
 
 namespace swiftlet {
 namespace {
-
-constexpr int kFailed = 1;
-constexpr int kUnusable = 2;
 
 struct ValidateOptions {
   std::string file;
@@ -33,8 +30,7 @@ struct ValidateOptions {
 };
 
 [[noreturn]] void refuse(const std::string& reason) {
-  fmt::print(stderr, "error: {}\n", reason);
-  throw CLI::RuntimeError(kUnusable);
+  end_verb(kUnusable, reason);
 }
 
 MissionFile load(const std::string& file, const MissionReading& reading) {
@@ -47,18 +43,10 @@ std::string at_line(const std::string& file, int line) {
   return line > 0 ? fmt::format("{}:{}", file, line) : file;
 }
 
-/// One line for all remarks that say the same: a survey has hundreds.
 void print_remarks(std::FILE* stream, const std::string& file,
                    const std::vector<MissionRemark>& remarks) {
-  std::map<std::string, std::size_t> counts;
-  for (const MissionRemark& remark : remarks) ++counts[remark.text];
-  for (const MissionRemark& remark : remarks) {
-    const auto counted = counts.find(remark.text);
-    if (counted == counts.end()) continue;
-    const std::size_t others = counted->second - 1;
-    fmt::print(stream, "{}: note: {}{}\n", at_line(file, remark.line), remark.text,
-               others > 0 ? fmt::format(" (and {} more like it)", others) : "");
-    counts.erase(counted);
+  for (const MissionRemark& remark : merged(remarks)) {
+    fmt::print(stream, "{}: note: {}\n", at_line(file, remark.line), remark.text);
   }
 }
 
@@ -132,10 +120,7 @@ void convert(const std::string& input, const std::string& output, const MissionR
   const MissionFile mission = load(input, reading);
   print_remarks(stderr, input, mission.remarks);
   const auto written = write_mission(output, mission);
-  if (!written.ok()) {
-    fmt::print(stderr, "error: {}\n", written.error().reason);
-    throw CLI::RuntimeError(kFailed);
-  }
+  if (!written.ok()) end_verb(kFailed, written.error().reason);
   print_remarks(stderr, output, *written);
   fmt::print("{}: {} items\n", output, mission.items.size());
 }

@@ -26,7 +26,10 @@ void MissionDownload::fail(const std::string& reason) {
 
 void MissionDownload::hear(const swiftlet_msgs::msg::MissionState& state, Time now) {
   if (progress_.state != TransferProgress::State::kRunning) return;
-  if (state.count() == 0) return fail("the vehicle has no mission");
+  if (state.count() == 0) {
+    nothing_there_ = true;
+    return fail("the vehicle has no mission");
+  }
   if (is_known_ && state.id() == id_) return;
   news_ = now;
   // Another one than before: what is here of that is of no use.

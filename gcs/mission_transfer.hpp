@@ -42,6 +42,8 @@ class MissionDownload {
   std::optional<swiftlet_msgs::msg::MissionFetch> advance(Time now);
 
   const TransferProgress& progress() const { return progress_; }
+  /// It failed because the vehicle has no mission.
+  bool nothing_there() const { return nothing_there_; }
   /// Of kDone.
   const MissionInbox::Items& items() const { return items_; }
   const std::string& id() const { return id_; }
@@ -53,6 +55,7 @@ class MissionDownload {
   Time news_, sent_;
   std::string id_;  // of the mission that is fetched
   bool is_known_ = false;
+  bool nothing_there_ = false;
   MissionInbox inbox_;
   MissionInbox::Items items_;
   TransferProgress progress_;

@@ -31,6 +31,36 @@ double degrees(double radians) {
   return radians * 180.0 / 3.14159265358979323846;
 }
 
+nlohmann::json json_of(const VehicleView& view) {
+  nlohmann::json json = nlohmann::json::object();
+  if (view.status) {
+    const auto& status = *view.status;
+    json["mode"] = mode_name(status.mode());
+    json["armed"] = status.armed();
+    json["ready"] = status.ready();
+    json["reason"] = status.reason();
+    json["height_m"] = status.height();
+    json["mission"] = {{"id", status.mission_id()},
+                       {"waypoint", status.waypoint()},
+                       {"waypoint_count", status.waypoint_count()},
+                       {"done", status.mission_done()}};
+  }
+  if (view.odometry) {
+    const RigidBodyState state = from_msg(*view.odometry);
+    json["position_m"] = {state.p_WB.x(), state.p_WB.y(), state.p_WB.z()};
+    json["yaw_rad"] = yaw_of(state.q_WB);
+    json["speed_m_s"] = state.v_WB_W.norm();
+  }
+  if (view.battery) {
+    json["battery"] = {{"percentage", view.battery->percentage()},
+                       {"voltage_v", view.battery->voltage()}};
+  }
+  return json;
+}
+
+/// Components write what they want into their reasons.
+constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+
 }  // namespace
 
 std::string describe(const VehicleView& view) {
@@ -78,34 +108,15 @@ std::string one_line(const VehicleView& view) {
 }
 
 std::string to_json(const VehicleView& view) {
-  nlohmann::json json;
-  if (view.status) {
-    const auto& status = *view.status;
-    json["mode"] = mode_name(status.mode());
-    json["armed"] = status.armed();
-    json["ready"] = status.ready();
-    json["reason"] = status.reason();
-    json["height_m"] = status.height();
-    json["mission"] = {{"id", status.mission_id()},
-                       {"waypoint", status.waypoint()},
-                       {"waypoint_count", status.waypoint_count()},
-                       {"done", status.mission_done()}};
-  }
-  if (view.odometry) {
-    const RigidBodyState state = from_msg(*view.odometry);
-    json["position_m"] = {state.p_WB.x(), state.p_WB.y(), state.p_WB.z()};
-    json["yaw_rad"] = yaw_of(state.q_WB);
-    json["speed_m_s"] = state.v_WB_W.norm();
-  }
-  if (view.battery) {
-    json["battery"] = {{"percentage", view.battery->percentage()},
-                       {"voltage_v", view.battery->voltage()}};
-  }
-  return json.dump(2);
+  return json_of(view).dump(2, ' ', false, kReplace);
 }
 
-StatusClient::StatusClient(const ComponentContext& context, bool watch)
-    : Component(context), watch_(watch), begin_(now()), status_heard_(begin_) {
+std::string to_json_line(const VehicleView& view) {
+  return json_of(view).dump(-1, ' ', false, kReplace);
+}
+
+StatusClient::StatusClient(const ComponentContext& context, Line each_second)
+    : Component(context), each_second_(each_second), begin_(now()), status_heard_(begin_) {
   subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
     status_heard_ = now();
     view_.status = status;
@@ -114,13 +125,13 @@ StatusClient::StatusClient(const ComponentContext& context, bool watch)
             [this](const nav_msgs::msg::Odometry& odometry) { view_.odometry = odometry; });
   subscribe(topic::battery,
             [this](const sensor_msgs::msg::BatteryState& battery) { view_.battery = battery; });
-  every(watch ? Duration(1s) : Duration(20ms), [this](Time now) { advance(now); });
+  every(each_second != nullptr ? Duration(1s) : Duration(20ms), [this](Time now) { advance(now); });
 }
 
 void StatusClient::advance(Time now) {
-  if (watch_) {
+  if (each_second_ != nullptr) {
     if (now - status_heard_ > kStale) view_ = {};
-    fmt::print("{}\n", one_line(view_));
+    fmt::print("{}\n", each_second_(view_));
     std::fflush(stdout);
   } else if ((view_.status && view_.odometry && view_.battery) || now - begin_ > kTimeout) {
     stop(view_.status ? 0 : 1);

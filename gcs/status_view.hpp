@@ -16,22 +16,26 @@ struct VehicleView {
   std::optional<sensor_msgs::msg::BatteryState> battery;
 };
 
-/// Several lines for people, one line for a log, and JSON for scripts.
+/// Several lines for people, one line for a log, and JSON for scripts, both ways.
 std::string describe(const VehicleView& view);
 std::string one_line(const VehicleView& view);
 std::string to_json(const VehicleView& view);
+std::string to_json_line(const VehicleView& view);
 
-/// Listens to the vehicle. With `watch`, prints a line a second until it is interrupted; without,
-/// ends the run when status and odometry were heard, or after two seconds.
+/// Listens to the vehicle until status, odometry and battery were heard, or for a moment; then it
+/// ends the run.
 class StatusClient : public Component {
  public:
-  StatusClient(const ComponentContext& context, bool watch);
+  /// With `each_second`, what that makes of the view is printed, a line a second until it is
+  /// interrupted.
+  using Line = std::string (*)(const VehicleView& view);
+  explicit StatusClient(const ComponentContext& context, Line each_second = nullptr);
   const VehicleView& view() const { return view_; }
 
  private:
   void advance(Time now);
 
-  bool watch_;
+  Line each_second_;
   Time begin_;
   Time status_heard_;
   VehicleView view_;

@@ -227,18 +227,26 @@ void fill(OccupancyGrid& grid, const Image& image, const MapFile& map) {
   }
 }
 
+Status check_form(const std::filesystem::path& image) {
+  const std::string extension = image.extension().string();
+  if (extension == ".pgm" || extension == ".png") return {};
+  return Error{fmt::format("{}: a map is saved as .pgm or .png", image.string())};
+}
+
 }  // namespace
 
+Status check_map_file(const std::filesystem::path& image) {
+  if (Status form = check_form(image); !form) return form;
+  return check_writable(image);
+}
+
 Status save_map(const OccupancyGrid& grid, const std::filesystem::path& image) {
-  const std::string extension = image.extension().string();
-  if (extension != ".pgm" && extension != ".png") {
-    return Error{fmt::format("{}: a map is saved as .pgm or .png", image.string())};
-  }
+  if (Status form = check_form(image); !form) return form;
   if (grid.empty()) {
     return Error{fmt::format("{}: the map is empty, there is nothing to save", image.string())};
   }
   std::vector<std::uint8_t> pixels = pixels_of(grid);
-  if (extension == ".png") {
+  if (image.extension() == ".png") {
     std::vector<std::uint8_t> png;
     const cv::Mat picture(grid.height(), grid.width(), CV_8UC1, pixels.data());
     try {

@@ -15,6 +15,9 @@ namespace swiftlet {
 /// whole, under its name, or not at all. Refuses an empty grid.
 Status save_map(const OccupancyGrid& grid, const std::filesystem::path& image);
 
+/// Whether a map could be saved as `image` now, for who has yet to get one.
+Status check_map_file(const std::filesystem::path& image);
+
 /// Reads a map in the format of the map_server: trinary and scale modes, negate, P5 and P2 images
 /// of 8 or 16 bits and what else OpenCV reads. Thresholds and resolution come from the file, all
 /// else from `params`. A map that is turned (yaw of the origin) is refused. Every error names the

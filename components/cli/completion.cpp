@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/runtime/component.hpp"
+#include "gcs/verbs/mode_names.hpp"
 
 namespace swiftlet {
 namespace {
@@ -42,7 +43,9 @@ void add_options(const CLI::App& verb, std::vector<std::string>& names) {
 bool names_components(const std::vector<std::string>& verbs) {
   static const std::vector<std::vector<std::string>> known{
       {"run"}, {"component", "info"}, {"param", "list"}, {"param", "dump"}};
-  return std::find(known.begin(), known.end(), verbs) != known.end();
+  const bool is_gcs = !verbs.empty() && verbs.front() == "gcs";  // which has param, too
+  const std::vector<std::string> rest(verbs.begin() + (is_gcs ? 1 : 0), verbs.end());
+  return std::find(known.begin(), known.end(), rest) != known.end();
 }
 
 std::vector<std::string> component_names() {
@@ -77,6 +80,7 @@ std::vector<std::string> completions(const CLI::App& app, const std::vector<std:
   } else {
     add_verbs(*verb, names);
     if (names_components(verbs)) names = component_names();
+    if (verbs == std::vector<std::string>{"gcs", "mode"}) names = mode_words();
   }
   const auto differs = [&begun](const std::string& name) {
     return name.compare(0, begun.size(), begun) != 0;

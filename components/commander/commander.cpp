@@ -12,6 +12,7 @@
 #include "components/commander/request_message.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/conversions.hpp"
+#include "components/fix_message.hpp"
 #include "components/manual_control_message.hpp"
 #include "components/mode_message.hpp"
 #include "components/planner/trajectory_message.hpp"
@@ -34,8 +35,6 @@ constexpr int kMissionEvery = 50;  // ticks
 constexpr int kClawEvery = 20;     // ticks
 /// What a person steers is told to a standby that often [ticks].
 constexpr int kSteeredEvery = 10;
-/// Of a satellite fix that does not say how good it is [m].
-constexpr double kUnknownFixSigma = 5.0;
 /// Commands that were answered, kept so that one that comes again is not carried out again.
 constexpr std::size_t kRememberedCommands = 64;
 /// Missions are flown by what these do.
@@ -220,14 +219,9 @@ class Commander : public Component {
   }
 
   /// Learns where the map is on Earth.
-  void hear(const sensor_msgs::msg::NavSatFix& fix) {
-    using namespace sensor_msgs::msg;
-    if (fix.status().status() == NavSatStatus_Constants::STATUS_NO_FIX || !position_) return;
-    const bool says =
-        fix.position_covariance_type() != NavSatFix_Constants::COVARIANCE_TYPE_UNKNOWN;
-    const double variance = std::max(fix.position_covariance()[0], fix.position_covariance()[4]);
-    origin_.add({fix.latitude(), fix.longitude(), fix.altitude()},
-                says ? std::sqrt(variance) : kUnknownFixSigma, *position_);
+  void hear(const sensor_msgs::msg::NavSatFix& message) {
+    const std::optional<GlobalFix> fix = from_msg(message);
+    if (fix && position_) origin_.add(fix->position, fix->sigma, *position_);
   }
 
   /// A mission of one waypoint. Who sends it hears no acknowledgement: a refusal is in the status.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "components/runtime/config/config.hpp"
 #include "estimation/basics/whole_file.hpp"
@@ -68,6 +69,22 @@ std::vector<MissionItem> items_of(const MissionFile& mission) {
   std::vector<MissionItem> items;
   for (const WrittenItem& written : mission.items) items.push_back(written.item);
   return items;
+}
+
+std::vector<MissionRemark> merged(const std::vector<MissionRemark>& remarks) {
+  std::map<std::string, std::size_t> counts;
+  for (const MissionRemark& remark : remarks) ++counts[remark.text];
+  std::vector<MissionRemark> merged;
+  for (const MissionRemark& remark : remarks) {
+    const auto counted = counts.find(remark.text);
+    if (counted == counts.end()) continue;
+    merged.push_back(remark);
+    if (counted->second > 1) {
+      merged.back().text += fmt::format(" (and {} more like it)", counted->second - 1);
+    }
+    counts.erase(counted);
+  }
+  return merged;
 }
 
 Result<MissionForm> mission_form_of(const std::filesystem::path& file) {

@@ -51,6 +51,9 @@ struct MissionFile {
 
 std::vector<MissionItem> items_of(const MissionFile& mission);
 
+/// One for all that say the same, at the first of their lines: a survey has hundreds.
+std::vector<MissionRemark> merged(const std::vector<MissionRemark>& remarks);
+
 /// By what a name ends with.
 enum class MissionForm {
   kYaml,       ///< ours: .yaml

@@ -12,6 +12,18 @@ namespace {
 
 constexpr Style kQuestion{Hue::kYellow, true, false, true};
 
+/// The end of what is written, where not all of it has room.
+std::string end_of(const std::string& text, int columns) {
+  if (columns_of(text) <= columns) return text;
+  const std::u32string glyphs = decode(text);
+  std::string end = "…";
+  for (std::size_t i = glyphs.size() - static_cast<std::size_t>(std::max(columns - 1, 0));
+       i < glyphs.size(); ++i) {
+    end += encode(glyphs[i]);
+  }
+  return end;
+}
+
 bool is_on(const Binding& binding, Keyboard keyboard) {
   const auto& all = binding.keyboards;
   return std::find(all.begin(), all.end(), keyboard) != all.end();
@@ -22,9 +34,11 @@ bool is_on(const Binding& binding, Keyboard keyboard) {
 void paint_message(const Pane& pane, const GroundStationModel& model, const Controller& controller,
                    Time now) {
   switch (controller.keyboard()) {
-    case Keyboard::kText:
-      pane.text(1, 0, controller.prompt() + " " + controller.text() + "_", kQuestion);
+    case Keyboard::kText: {
+      const int x = pane.text(1, 0, controller.prompt() + " ", kQuestion);
+      pane.text(x, 0, end_of(controller.text() + "_", pane.width() - x), kQuestion);
       return;
+    }
     case Keyboard::kConfirm:
       pane.text(1, 0, controller.prompt() + "  y yes, n no", kQuestion);
       return;
@@ -71,7 +85,7 @@ void paint_hints(const Pane& pane, const Controller& controller) {
 }
 
 void paint_help(const Pane& pane, Keyboard keyboard) {
-  constexpr int kKeys = 10;
+  constexpr int kKeys = 9;
   std::vector<const Binding*> rows;
   for (const Binding& binding : key_bindings()) {
     if (is_on(binding, keyboard)) rows.push_back(&binding);

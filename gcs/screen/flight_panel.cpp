@@ -3,6 +3,7 @@
 // What the vehicle is and does: the header, and how it flies.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimation/geometry/so3.hpp"
@@ -13,9 +14,8 @@
 namespace swiftlet::screen {
 namespace {
 
-/// A panel's rows of a name and a value.
+/// Columns of a name, before its value.
 constexpr int kLabel = 9;
-constexpr int kMostRows = 7;
 
 double degrees(double radians) {
   return radians * 180.0 / M_PI;
@@ -45,11 +45,54 @@ const char* direction(double yaw) {
   return std::isfinite(eighths) ? kNames[(static_cast<int>(std::fmod(eighths, 8.0)) + 8) % 8] : "";
 }
 
-std::string mission_text(const VehicleReport& report) {
+/// Of a goto and its like.
+std::string way_text(const VehicleReport& report) {
   if (report.waypoint_count == 0) return "none";
   if (report.mission_done)
     return fmt::format("{} of {}, done", report.waypoint_count, report.waypoint_count);
   return fmt::format("to {} of {}", report.waypoint, report.waypoint_count);
+}
+
+std::string mission_text(const MissionReport& report) {
+  using State = MissionReport::State;
+  const char* state = to_string(report.state);
+  const bool has_item = report.state == State::kFlying || report.state == State::kPaused;
+  if (has_item) return fmt::format("{} of {} {}", report.item, report.count, state);
+  return report.count == 0 ? state : fmt::format("{}, {} items", state, report.count);
+}
+
+/// What is flown: the vehicle's mission, a goto, or which mission waits.
+void paint_mission(const Pane& pane, int y, const GroundStationModel& model, Time now) {
+  const auto& vehicle = model.vehicle();
+  const auto& mission = model.mission();
+  const bool goes_elsewhere = vehicle.known() && vehicle->navigates && !model.mission_flies();
+  if (mission.known() && !goes_elsewhere)
+    return row(pane, y, "mission", mission_text(*mission), mission, now);
+  row(pane, y, "mission", vehicle.known() ? way_text(*vehicle) : "?", vehicle, now);
+}
+
+void paint_attitude(const Pane& pane, const GroundStationModel& model, Time now) {
+  const auto& pose = model.pose();
+  if (!pose.known()) {
+    pane.text(1, pane.height() / 2, "attitude not known", kDim);
+    return;
+  }
+  const bool fresh = pose.fresh(now);
+  draw_horizon(pane, pose->q_WB, fresh ? Style{Hue::kCyan} : kDim);
+  if (!fresh) {
+    pane.text(1, pane.height() - 1, " stale: " + age_text(pose.age(now)) + " ", kWarning);
+  }
+}
+
+/// Its name is shorter, since a place on Earth needs the room.
+void paint_fix(const Pane& pane, int y, const GroundStationModel& model, Time now) {
+  const auto& fix = model.fix();
+  const bool has_fix = fix.known() && fix->has_value();
+  pane.text(0, y, "GPS", kDim);
+  const std::string place =
+      has_fix ? fmt::format("{:.5f} {:.5f}", (*fix)->position.latitude, (*fix)->position.longitude)
+              : std::string(fix.known() ? "no fix" : "none");
+  pane.text(has_fix ? 4 : kLabel, y, place, fix.fresh(now) ? kPlain : kDim);
 }
 
 Style battery_style(double share) {
@@ -79,6 +122,10 @@ void paint_battery(const Pane& pane, const GroundStationModel& model, Time now) 
 }
 
 }  // namespace
+
+int flight_rows(const GroundStationModel& model) {
+  return model.claw().known() ? 7 : 6;
+}
 
 std::string age_text(Duration age) {
   const double seconds = to_seconds(age);
@@ -118,18 +165,9 @@ void paint_header(const Pane& pane, const GroundStationModel& model, Time now) {
 }
 
 void paint_flight(const Pane& pane, const GroundStationModel& model, Time now) {
-  const int horizon = std::max(3, std::min(pane.height() - kMostRows + 1, 13));
-  const Pane attitude = pane.part({0, 0, pane.width(), horizon});
+  const int horizon = std::clamp(pane.height() - flight_rows(model), 3, 13);
+  paint_attitude(pane.part({0, 0, pane.width(), horizon}), model, now);
   const auto& pose = model.pose();
-  if (pose.known()) {
-    const bool fresh = pose.fresh(now);
-    draw_horizon(attitude, pose->q_WB, fresh ? Style{Hue::kCyan} : kDim);
-    if (!fresh) {
-      attitude.text(1, horizon - 1, " stale: " + age_text(pose.age(now)) + " ", kWarning);
-    }
-  } else {
-    attitude.text(1, horizon / 2, "attitude not known", kDim);
-  }
   const auto& vehicle = model.vehicle();
   int y = horizon;
   const auto when = [](bool known, auto text) { return known ? text() : std::string("?"); };
@@ -151,16 +189,9 @@ void paint_flight(const Pane& pane, const GroundStationModel& model, Time now) {
              return fmt::format("{}° {}", std::lround(degrees(yaw)), direction(yaw));
            }),
       pose, now);
-  const auto& fix = model.fix();
-  const bool has_fix = fix.known() && fix->has_value();
-  // Its name is shorter, since a place on Earth needs the room.
-  pane.text(0, y, "GPS", kDim);
-  const std::string place = has_fix
-                                ? fmt::format("{:.5f} {:.5f}", (*fix)->latitude, (*fix)->longitude)
-                                : std::string(fix.known() ? "no fix" : "none");
-  pane.text(has_fix ? 4 : kLabel, y++, place, fix.fresh(now) ? kPlain : kDim);
-  row(pane, y, "mission", when(vehicle.known(), [&] { return mission_text(*vehicle); }), vehicle,
-      now);
+  paint_fix(pane, y++, model, now);
+  paint_mission(pane, y++, model, now);
+  if (model.claw().known()) row(pane, y, "claw", model.claw()->state, model.claw(), now);
 }
 
 }  // namespace swiftlet::screen

@@ -5,20 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 
 #include "gcs/screen/drawing/widgets.hpp"
 
 namespace swiftlet::screen {
 namespace {
-
-std::string clock_text(Time time) {
-  const auto seconds = static_cast<std::time_t>(
-      std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count());
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
-}
 
 /// Lines of a text in one style.
 void append(std::vector<Line>& lines, const std::string& text, int columns, Style style) {
@@ -60,6 +51,10 @@ void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
       lines.push_back({vehicle->armed || !vehicle->ready ? "all well" : "ready to arm", kGood});
     }
     lines.push_back({fmt::format("{} components", model.components().size()), kDim});
+    const auto& mission = model.mission();
+    if (mission.fresh(now) && mission->state == MissionReport::State::kPaused) {
+      append(lines, describe_pause(*mission), pane.width(), kWarning);
+    }
     if (model.guard().fresh(now) && !model.guard()->acting) {
       lines.push_back({"guard watches", kDim});
     }
@@ -93,9 +88,7 @@ void paint_events(const Pane& pane, const EventLog& log) {
   // Only those that can be seen, from the newest on.
   for (auto event = log.events().rbegin(); event != log.events().rend(); ++event) {
     if (static_cast<int>(lines.size()) >= pane.height()) break;
-    std::string text = event->text;
-    if (event->times > 1) text += fmt::format(" ×{}", event->times);
-    const std::vector<std::string> wrapped = wrap(text, pane.width() - kClock);
+    const std::vector<std::string> wrapped = wrap(text_of(*event), pane.width() - kClock);
     for (std::size_t i = wrapped.size(); i-- > 0;) {
       const std::string before = i == 0 ? clock_text(event->time) + " " : std::string(kClock, ' ');
       lines.push_back({before + wrapped[i], style_of(event->severity)});
@@ -103,29 +96,6 @@ void paint_events(const Pane& pane, const EventLog& log) {
   }
   std::reverse(lines.begin(), lines.end());
   draw_tail(pane, lines);
-}
-
-void paint_waypoints(const Pane& pane, const Controller& controller) {
-  const WaypointList& list = controller.waypoints();
-  const bool edits = controller.keyboard() == Keyboard::kWaypoints ||
-                     controller.keyboard_below() == Keyboard::kWaypoints;
-  if (list.empty()) {
-    const auto lines =
-        wrap(edits ? "move the cursor with the arrows, then a: add" : "none; w puts some together",
-             pane.width());
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      pane.text(0, static_cast<int>(i), lines[i], kDim);
-    }
-    return;
-  }
-  std::vector<Line> lines;
-  for (std::size_t i = 0; i < list.items().size(); ++i) {
-    const Eigen::Vector3d& p = list.items()[i].position;
-    const bool selected = edits && static_cast<int>(i) == list.selected();
-    lines.push_back({fmt::format("{:>3} {:6.2f} {:6.2f} {:4.1f}", i + 1, p.x(), p.y(), p.z()),
-                     selected ? kInverse : kPlain});
-  }
-  draw_list(pane, lines, list.selected());
 }
 
 void paint_parameters(const Pane& pane, const ParameterList& list) {

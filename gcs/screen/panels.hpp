@@ -14,12 +14,17 @@ std::string age_text(Duration age);
 /// "12 min", "45 s", "> 99 min"; "?" where it is not known.
 std::string time_left_text(std::optional<double> seconds);
 
+/// Of the flight panel, below the horizon.
+int flight_rows(const GroundStationModel& model);
+
 void paint_header(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_flight(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_health(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_link(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_events(const Pane& pane, const EventLog& log);
-void paint_waypoints(const Pane& pane, const Controller& controller);
+/// `origin`: where the map is on Earth, where that is known.
+void paint_waypoints(const Pane& pane, const Controller& controller,
+                     const std::optional<LocalOrigin>& origin);
 void paint_message(const Pane& pane, const GroundStationModel& model, const Controller& controller,
                    Time now);
 void paint_hints(const Pane& pane, const Controller& controller);

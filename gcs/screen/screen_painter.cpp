@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "estimation/geometry/so3.hpp"
 #include "gcs/screen/drawing/braille.hpp"
 #include "gcs/screen/drawing/map_drawing.hpp"
 #include "gcs/screen/drawing/widgets.hpp"
+#include "gcs/screen/map_scene.hpp"
 #include "gcs/screen/panels.hpp"
 
 namespace swiftlet::screen {
@@ -17,8 +17,6 @@ namespace {
 
 /// From here on there is room for a column on the right.
 constexpr int kWide = 120;
-/// The values under the horizon.
-constexpr int kValues = 6;
 /// Rows below them from which on there is room for health and link.
 constexpr int kLeastForLink = 9;
 /// The first row below the header and a line.
@@ -70,21 +68,13 @@ std::string map_title(const GroundStationModel& model, const Controller& control
 }
 
 MapScene scene_of(const GroundStationModel& model, const Controller& controller, Time now) {
-  MapScene scene;
-  const auto& pose = model.pose();
-  if (pose.known() && pose->p_WB.allFinite()) {
-    scene.vehicle = {pose->p_WB.head<2>(), yaw_of(pose->q_WB), !pose.fresh(now)};
+  MapScene scene = scene_of(model, now);
+  const auto& items = controller.waypoints().items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto place = place_in_map(items[i].item, model.origin());
+    if (place) scene.waypoints.push_back({static_cast<int>(i) + 1, *place});
   }
-  if (model.vehicle().known() && model.vehicle()->in_flight) {
-    scene.pad = model.vehicle()->takeoff_point;
-  }
-  if (model.path().known() && model.vehicle().known() && model.vehicle()->navigates)
-    scene.path = *model.path();
-  scene.trail = model.trail();
-  for (const MissionWaypoint& waypoint : controller.waypoints().items()) {
-    scene.waypoints.emplace_back(waypoint.position.head<2>());
-  }
-  if (edits_waypoints(controller)) scene.selected = controller.waypoints().selected();
+  if (edits_waypoints(controller)) scene.selected = controller.waypoints().selected() + 1;
   scene.cursor = controller.cursor();
   return scene;
 }
@@ -118,7 +108,7 @@ void paint_dialog(const Pane& screen, const Controller& controller) {
 
 }  // namespace
 
-Layout layout_of(int width, int height, bool edits_waypoints) {
+Layout layout_of(int width, int height, bool edits_waypoints, int values) {
   Layout layout;
   layout.header = {0, 0, width, 1};
   layout.message = {0, height - 2, width, 1};
@@ -129,8 +119,8 @@ Layout layout_of(int width, int height, bool edits_waypoints) {
   const int left = wide ? 34 : std::max(22, width / 3 - 1);
   const int right = wide ? std::max(38, width / 4) : 0;
   // The horizon is about as high as it is wide, where there is room.
-  const int horizon = std::clamp((bottom - top) - kValues - 4, 3, left / 3);
-  const int flight = horizon + kValues;
+  const int horizon = std::clamp((bottom - top) - values - 4, 3, left / 3);
+  const int flight = horizon + values;
   layout.flight = {0, top, left, flight};
   const int below = top + flight + 1;
   const Area rest{0, below, left, bottom - below};
@@ -165,7 +155,8 @@ void paint(Surface& surface, const GroundStationModel& model, Controller& contro
                 kWarning);
     return;
   }
-  const Layout layout = layout_of(surface.width(), surface.height(), edits_waypoints(controller));
+  const Layout layout =
+      layout_of(surface.width(), surface.height(), edits_waypoints(controller), flight_rows(model));
   const int rows = layout.message.y - 1;
   separate(screen.part({layout.map.x - 1, 1, 1, rows}));
   if (layout.map.x + layout.map.width < screen.width()) {
@@ -182,7 +173,8 @@ void paint(Surface& surface, const GroundStationModel& model, Controller& contro
   paint_flight(screen.part(layout.flight), model, now);
   if (layout.health.height > 0) paint_health(screen.part(layout.health), model, now);
   if (layout.link.height > 0) paint_link(screen.part(layout.link), model, now);
-  if (layout.waypoints.height > 0) paint_waypoints(screen.part(layout.waypoints), controller);
+  if (layout.waypoints.height > 0)
+    paint_waypoints(screen.part(layout.waypoints), controller, model.origin());
   paint_events(screen.part(layout.events), model.log());
   paint_dialog(screen, controller);
   paint_message(screen.part(layout.message), model, controller, now);

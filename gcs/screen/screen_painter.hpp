@@ -17,8 +17,9 @@ inline constexpr int kLeastHeight = 20;
 struct Layout {
   Area header, flight, health, map, waypoints, events, link, message, hints;
 };
-/// `edits_waypoints`: small screens have the waypoints in the place of the health.
-Layout layout_of(int width, int height, bool edits_waypoints);
+/// `edits_waypoints`: small screens have the waypoints in the place of the health. `values`: rows
+/// below the horizon.
+Layout layout_of(int width, int height, bool edits_waypoints, int values);
 
 /// Draws the whole screen. The controller's camera learns how large the map is; `picture` is kept
 /// by the caller from one time to the next.

@@ -26,6 +26,11 @@ class Completion : public SystemTest {
 
 TEST_F(Completion, VerbsOptionsAndComponents) {
   EXPECT_EQ(offered({"gcs", "take"}), "takeoff\n");
+  EXPECT_EQ(offered({"gcs", "m"}), "manual map mission mode\n");
+  EXPECT_EQ(offered({"gcs", "mode", "ma"}), "manual\n");
+  EXPECT_EQ(offered({"gcs", "waypoint", ""}), "add list move remove\n");
+  EXPECT_EQ(offered({"gcs", "cloud", "save", "a.ply", "--se"}), "--seconds --see-all\n");
+  EXPECT_EQ(offered({"gcs", "param", "dump", "plan"}), "planner\n");
   EXPECT_EQ(offered({"bag", "re"}), "record\n");
   EXPECT_EQ(offered({"--log", "debug", "doc"}), "doctor\n") << "'debug' is a value, no verb";
   EXPECT_EQ(offered({"fly", "--rea"}), "--real-time\n");

@@ -42,7 +42,8 @@ std::string name_of_verb(const testing::TestParamInfo<std::string>& verb) {
 
 INSTANTIATE_TEST_SUITE_P(EachVerb, GroundStationAlone,
                          testing::Values("arm", "disarm", "takeoff", "takeoff 1.5", "goto 2 4",
-                                         "goto 2 4 1", "hover", "land", "status", "status --json"),
+                                         "goto 2 4 1", "hover", "land", "status", "status --json",
+                                         "mode", "mode --json", "mode hover", "log --for 1.5"),
                          name_of_verb);
 
 }  // namespace

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "tests/system/live_vehicle.hpp"
 #include "tests/system/tmux_screen.hpp"
@@ -17,6 +21,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 const Seconds kAnswer{3.0};  // two are promised
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 class ScreenFlight : public LiveVehicleTest {
  protected:
@@ -66,6 +75,39 @@ class ScreenFlight : public LiveVehicleTest {
     EXPECT_LT(step, 0.6) << "a cursor that jumps";
   }
 
+  /// A mission in place of an empty list.
+  void put_together(const std::vector<std::pair<double, double>>& places) {
+    screen_->press("w");
+    for (const auto& [x, y] : places) {
+      ASSERT_NO_FATAL_FAILURE(move_cursor(x, y));
+      screen_->press("a");
+    }
+    ASSERT_TRUE(screen_->shows("  " + std::to_string(places.size()) + " ", kAnswer));
+  }
+
+  void clear_list() {
+    screen_->press("c");
+    ASSERT_TRUE(screen_->shows("of the list?", kAnswer));
+    screen_->press("y");
+    ASSERT_TRUE(screen_->shows("a: add", kAnswer));
+  }
+
+  /// What the vehicle says of its mission to somebody else.
+  json mission() {
+    const Finished finished = gcs({"mission", "status", "--json"});
+    return finished.exit_code == 0 ? json::parse(finished.out) : json();
+  }
+  template <class Condition>
+  bool mission_becomes(const std::string& what, Seconds limit, Condition condition) {
+    json last;
+    const bool done = becomes_true(limit, [&] {
+      last = mission();
+      return !last.is_null() && condition(last);
+    });
+    EXPECT_TRUE(done) << "never " << what << ": " << last.dump(2);
+    return done;
+  }
+
   void take_off() {
     screen_->press("a");
     ASSERT_TRUE(screen_->shows("The rotors will turn", kAnswer));
@@ -103,29 +145,42 @@ TEST_F(ScreenFlight, AWholeMissionIsFlownWithTheKeyboard) {
   ASSERT_TRUE(screen_->shows("not armed", kAnswer)) << "a refusal says why";
   take_off();
 
-  screen_->press("w");
-  const double places[][2] = {{2.0, 1.0}, {3.0, 1.0}, {4.0, 1.0}, {3.0, 1.0}, {2.2, 4.4}};
-  for (const auto& [x, y] : places) {
-    move_cursor(x, y);
-    screen_->press("a");
-  }
-  ASSERT_TRUE(screen_->shows("  5 ", kAnswer));
+  put_together({{2.0, 1.0}, {3.0, 1.0}, {4.0, 1.0}, {3.0, 1.0}, {2.2, 4.4}});
   screen_->press("s");
-  ASSERT_TRUE(screen_->shows("mission of 5: accepted", kAnswer));
-  ASSERT_TRUE(screen_->shows("of 5", kAnswer));
-  ASSERT_TRUE(status_becomes("at the second waypoint", Seconds(30.0),
-                             [](const json& s) { return s["mission"]["waypoint"] >= 2; }));
+  ASSERT_TRUE(screen_->shows("upload: 5 items, read back", kAnswer));
+  ASSERT_TRUE(screen_->shows("mission start: accepted", kAnswer));
+  ASSERT_TRUE(screen_->shows("of 5 flying", kAnswer));
+  ASSERT_TRUE(mission_becomes("at the second waypoint", Seconds(30.0),
+                              [](const json& mission) { return mission["item"] >= 2; }));
   screen_->press("Space");
-  ASSERT_TRUE(screen_->shows("hover: accepted", kAnswer));
+  ASSERT_TRUE(screen_->shows("mission pause: accepted", kAnswer));
+  ASSERT_TRUE(screen_->shows("of 5 paused", kAnswer));
   EXPECT_EQ(status()["mode"], "Hover");
+  const json paused = mission();
+  EXPECT_EQ(paused["state"], "paused");
+
+  // What the vehicle has comes back into an empty list.
+  screen_->press("w");
+  clear_list();
+  screen_->press("d");
+  ASSERT_TRUE(screen_->shows("download: 5 items", kAnswer));
+  ASSERT_TRUE(screen_->shows("  5   2.2", kAnswer));
+
+  screen_->press("u");
+  ASSERT_TRUE(screen_->shows("of 5 flying", kAnswer));
+  EXPECT_GE(mission()["item"], paused["item"]) << "it goes on, and does not begin again";
+  screen_->press("Escape");
+  ends_in("Indoor Navigation", "Hover", Seconds(90.0));
+  EXPECT_EQ(mission()["state"], "done");
+  EXPECT_LT(distance(status(), 2.2, 4.4), 0.4);
+  ASSERT_TRUE(screen_->shows("done, 5 items", kAnswer));
 
   screen_->press("w");
-  screen_->press("s");
-  ASSERT_TRUE(screen_->shows("mission of 5: accepted", kAnswer));
-  ends_in("Indoor Navigation", "Hover", Seconds(90.0));
-  json now = status();
-  EXPECT_EQ(now["mission"]["done"], true) << now.dump(2);
-  EXPECT_LT(distance(now, 2.2, 4.4), 0.4);
+  screen_->press("v");
+  screen_->press("y");
+  ASSERT_TRUE(screen_->shows("mission  none", kAnswer));
+  EXPECT_EQ(mission()["state"], "none");
+  screen_->press("Escape");
 
   screen_->press("g");
   move_cursor(2.0, 3.0);
@@ -134,8 +189,77 @@ TEST_F(ScreenFlight, AWholeMissionIsFlownWithTheKeyboard) {
   ends_in("Indoor Navigation", "Hover", Seconds(40.0));
   EXPECT_LT(distance(status(), 2.0, 3.0), 0.4);
   screen_->resize(200, 60);
-  ASSERT_TRUE(screen_->shows("mission done", kAnswer));
+  ASSERT_TRUE(screen_->shows("items done", kAnswer));
   land();
+  quit();
+  stop_vehicle();
+}
+
+TEST_F(ScreenFlight, MissionsGoToFilesAndComeBack) {
+  open(80, 24);
+  ASSERT_TRUE(becomes_ready());
+  ASSERT_TRUE(screen_->shows("ready to arm", kStartLimit));
+  put_together({{2.0, 1.0}, {3.0, 1.0}, {4.0, 1.0}});
+  screen_->press("s");
+  ASSERT_TRUE(screen_->shows("begin with a take-off", kAnswer)) << "it stands on the ground";
+  EXPECT_EQ(mission()["state"], "none") << "nothing was sent";
+
+  const std::string file = path("three.yaml");
+  screen_->press("w");
+  ASSERT_TRUE(screen_->shows("Write which file?", kAnswer));
+  screen_->press(file);
+  screen_->press("Enter");
+  ASSERT_TRUE(screen_->shows("3 items written", kAnswer));
+  const std::string content = content_of(file);
+  EXPECT_THAT(content, HasSubstr("goto: {x: 2, y: 1, z: 1.2}"));
+  EXPECT_THAT(content, HasSubstr("goto: {x: 4, y: 1, z: 1.2}"));
+
+  // A mission with all that the list cannot add itself, under a name that is remembered.
+  const std::string everything =
+      "items:\n  - takeoff: 1.3\n  - goto: {x: 2, y: 1, z: 1.2}\n  - hold: 4\n  - claw: close\n"
+      "  - gps: {latitude: 47.4, longitude: 8.5, altitude: 10}\n  - return\n";
+  write("three.yaml", everything);
+  screen_->press("o");
+  ASSERT_TRUE(screen_->shows("three.yaml_", kAnswer));
+  screen_->press("Enter");
+  ASSERT_TRUE(screen_->shows("6 items read", kAnswer));
+  for (const char* item : {"1 take off to 1.3 m", "3 hold 4 s", "4 close the claw", "5 gps"}) {
+    EXPECT_TRUE(screen_->shows(item, kAnswer));
+  }
+  screen_->press("w");
+  screen_->press("BSpace", 5);
+  screen_->press("2.yaml");
+  screen_->press("Enter");
+  ASSERT_TRUE(screen_->shows("6 items written", kAnswer));
+  EXPECT_EQ(content_of(path("three2.yaml")), everything);
+
+  write("three2.yaml", "items:\n  - goto: {x: 2, y: 1}\n");
+  screen_->press("o");
+  screen_->press("Enter");
+  ASSERT_TRUE(screen_->shows("three2.yaml:2", kAnswer)) << "file and line";
+  ASSERT_TRUE(screen_->shows("1 take off to 1.3 m", kAnswer)) << "the list stays";
+  screen_->press("Escape");
+  quit();
+  stop_vehicle();
+}
+
+TEST_F(ScreenFlight, AClawIsOpenedAndClosedOnceThereIsOne) {
+  std::string scenario = content_of(office());
+  const std::string worlds = "../worlds";
+  scenario.replace(scenario.find(worlds), worlds.size(),
+                   std::filesystem::path(office()).parent_path() / worlds);
+  const std::string with_claw = write("claw.yaml", scenario + "\nclaw: {}\n");
+  open(80, 24);
+  ASSERT_TRUE(screen_->shows("Grounded", kStartLimit));
+  screen_->press("c");
+  ASSERT_TRUE(screen_->shows("no claw is heard", kAnswer));
+  EXPECT_THAT(screen_->text(), Not(HasSubstr("claw     ")));
+  processes_.push_back(start({"run", "claw", "sim_claw", "--scenario", with_claw}));
+  ASSERT_TRUE(screen_->shows("claw     not moved yet", kStartLimit));
+  screen_->press("c");
+  ASSERT_TRUE(screen_->shows("claw     closed", kAnswer));
+  screen_->press("o");
+  ASSERT_TRUE(screen_->shows("claw     open", kAnswer));
   quit();
   stop_vehicle();
 }

@@ -91,4 +91,12 @@ char ascii_of(char32_t glyph) {
   return '?';
 }
 
+std::string printable(std::string_view utf8, bool ascii) {
+  std::string text;
+  for (const char32_t glyph : decode(utf8)) {
+    text += ascii ? std::string(1, ascii_of(glyph)) : encode(glyph);
+  }
+  return text;
+}
+
 }  // namespace swiftlet::screen

@@ -132,10 +132,9 @@ void draw_map(const Pane& pane, const std::shared_ptr<const GridMap>& map, const
   drawing.flush();
   draw_scale(pane, view);
   if (scene.pad) drawing.mark(*scene.pad, U'H', {Hue::kGreen, true, false, false});
-  for (std::size_t i = 0; i < scene.waypoints.size(); ++i) {
-    const bool is_selected = scene.selected && *scene.selected == static_cast<int>(i);
-    drawing.label(scene.waypoints[i], std::to_string(i + 1),
-                  {Hue::kMagenta, true, false, is_selected});
+  for (const MapScene::Waypoint& waypoint : scene.waypoints) {
+    drawing.label(waypoint.position, std::to_string(waypoint.number),
+                  {Hue::kMagenta, true, false, scene.selected == waypoint.number});
   }
   if (scene.cursor) drawing.cross(*scene.cursor);
   if (scene.vehicle) {

@@ -20,11 +20,15 @@ struct MapScene {
     bool stale = false;
   };
   std::optional<Vehicle> vehicle;
-  std::optional<Eigen::Vector2d> pad;      ///< where it took off
-  std::vector<Eigen::Vector2d> path;       ///< that is flown
-  std::deque<Eigen::Vector2d> trail;       ///< that was flown
-  std::vector<Eigen::Vector2d> waypoints;  ///< numbered from 1
-  std::optional<int> selected;             ///< index of a waypoint
+  std::optional<Eigen::Vector2d> pad;  ///< where it took off
+  std::vector<Eigen::Vector2d> path;   ///< that is flown
+  std::deque<Eigen::Vector2d> trail;   ///< that was flown
+  struct Waypoint {
+    int number = 0;
+    Eigen::Vector2d position;
+  };
+  std::vector<Waypoint> waypoints;
+  std::optional<int> selected;  ///< number of a waypoint
   std::optional<Eigen::Vector2d> cursor;
 };
 

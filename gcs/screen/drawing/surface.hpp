@@ -104,6 +104,8 @@ int columns_of(std::string_view utf8);
 /// The ASCII character that stands for a glyph where there is no UTF-8: lines become + - |, arrows
 /// ^ v < > / \, dots of braille . : + # by their number.
 char ascii_of(char32_t glyph);
+/// A text as it can be written on a terminal: without control characters, and in ASCII if so.
+std::string printable(std::string_view utf8, bool ascii);
 
 /// Lines of text, in UTF-8 or ASCII, without spaces at their ends.
 std::string to_text(const Surface& surface, bool ascii = false);

@@ -17,16 +17,20 @@ void draw_bar(const Pane& pane, int x, int y, int columns, double share, Style s
 }
 
 std::vector<std::string> wrap(const std::string& text, int columns) {
+  const int width = std::max(columns, 1);
   std::vector<std::string> lines;
   std::istringstream words(text);
   std::string word;
   while (words >> word) {
-    const bool begins =
-        lines.empty() || columns_of(lines.back()) + 1 + columns_of(word) > std::max(columns, 1);
+    const bool begins = lines.empty() || columns_of(lines.back()) + 1 + columns_of(word) > width;
     if (begins) {
-      lines.push_back(word);
+      lines.push_back("");
     } else {
-      lines.back() += " " + word;
+      lines.back() += " ";
+    }
+    for (const char32_t glyph : decode(word)) {
+      if (columns_of(lines.back()) >= width) lines.push_back("");
+      lines.back() += encode(glyph);
     }
   }
   return lines;

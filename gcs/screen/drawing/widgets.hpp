@@ -12,7 +12,8 @@ namespace swiftlet::screen {
 /// A bar of `columns`, filled to `share` (0 to 1).
 void draw_bar(const Pane& pane, int x, int y, int columns, double share, Style style);
 
-/// The first word-wise lines of a text, each at most `columns` wide; a longer word is cut.
+/// A text in lines, each at most `columns` wide; they break between words, and in a word that is
+/// longer.
 std::vector<std::string> wrap(const std::string& text, int columns);
 
 /// A line of a list, with how it looks.

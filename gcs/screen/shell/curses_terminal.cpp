@@ -6,14 +6,12 @@
 #define NCURSES_WIDECHAR 1
 #include <curses.h>
 #include <fmt/format.h>
-#include <langinfo.h>
 #include <unistd.h>
 
-#include <clocale>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 
+#include "gcs/screen/shell/locale_text.hpp"
 #include "gcs/screen/shell/terminal_rescue.hpp"
 
 namespace swiftlet::screen {
@@ -44,10 +42,6 @@ short colour_of(Hue hue) {
 
 short pair_of(Hue hue) {
   return static_cast<short>(hue);
-}
-
-bool has_utf8() {
-  return std::strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
 std::optional<KeyCode> special_key(wint_t code) {
@@ -99,9 +93,7 @@ CursesTerminal::CursesTerminal(const Options& options) {
     throw NoTerminal(
         "there is no terminal to draw in; for scripts there are verbs: swiftlet gcs --help");
   }
-  // Not LC_NUMERIC: numbers keep their point.
-  std::setlocale(LC_CTYPE, "");
-  ascii_ = options.ascii || !has_utf8();
+  ascii_ = !locale_is_utf8() || options.ascii;
   rescue_terminal_at_end();
   if (newterm(nullptr, stdout, stdin) == nullptr) {
     forget_rescue();

@@ -37,15 +37,31 @@ GroundCommand ground_command(const Action& action) {
       return simple("manual", code::MANUAL);
     case Kind::kAssist:
       return simple("assist", code::ASSIST);
-    case Kind::kMission: {
+    case Kind::kGoTo: {
       GroundCommand command;
-      command.name = action.name;
-      command.mission = action.waypoints;
+      command.name = "goto";
+      command.go_to = GroundCommand::Place{action.place.x(), action.place.y(), action.place.z()};
       return command;
     }
+    case Kind::kFlyMission:  // once it is on board
+    case Kind::kGoOn:
+      return simple("mission start", code::MISSION_START);
+    case Kind::kPauseMission:
+      return simple("mission pause", code::MISSION_PAUSE);
+    case Kind::kClearMission:
+      return simple("mission clear", code::MISSION_CLEAR);
+    case Kind::kOpenClaw:
+      return simple("claw open", code::CLAW_OPEN);
+    case Kind::kCloseClaw:
+      return simple("claw close", code::CLAW_CLOSE);
     case Kind::kHover:
+    case Kind::kFetchMission:
+    case Kind::kSave:
+    case Kind::kLoad:
     case Kind::kListParameters:
     case Kind::kSetParameter:
+    case Kind::kNote:
+    case Kind::kTell:
     case Kind::kQuit:
       break;
   }

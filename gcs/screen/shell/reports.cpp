@@ -3,9 +3,11 @@
 #include "gcs/screen/shell/reports.hpp"
 
 #include <cstdlib>
+#include <iterator>
 
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
+#include "gcs/mission_state_name.hpp"
 
 namespace swiftlet::screen {
 namespace {
@@ -41,10 +43,28 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   return report;
 }
 
-std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix) {
-  using namespace sensor_msgs::msg;
-  if (fix.status().status() == NavSatStatus_Constants::STATUS_NO_FIX) return std::nullopt;
-  return GlobalPosition{fix.latitude(), fix.longitude(), fix.altitude()};
+MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission) {
+  using State = MissionReport::State;
+  MissionReport report;
+  for (const State known : {State::kReady, State::kFlying, State::kPaused, State::kDone}) {
+    if (static_cast<std::uint8_t>(known) == mission.state()) report.state = known;
+  }
+  report.item = static_cast<int>(mission.item());
+  report.count = static_cast<int>(mission.count());
+  report.reason = mission.reason();
+  report.id = mission.id();
+  if (mission.upload_refused()) report.refusal = mission.upload_reason();
+  report.upload = mission.upload_id();
+  return report;
+}
+
+ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw) {
+  using namespace swiftlet_msgs::msg::ClawState_Constants;
+  constexpr const char* kNames[] = {"not moved yet", "opening", "open", "closing",
+                                    "closed",        "holding", "fault"};
+  static_assert(FAULT + 1 == std::size(kNames));
+  if (claw.state() > FAULT) return {"?", ""};
+  return {kNames[claw.state()], claw.state() == FAULT ? claw.reason() : ""};
 }
 
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {

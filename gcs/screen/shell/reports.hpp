@@ -11,7 +11,8 @@
 namespace swiftlet::screen {
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
-std::optional<GlobalPosition> fix_of(const sensor_msgs::msg::NavSatFix& fix);
+MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission);
+ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw);
 /// Nothing where it is not that of a ground link.
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics);
 std::shared_ptr<const GridMap> map_of(const nav_msgs::msg::OccupancyGrid& map);

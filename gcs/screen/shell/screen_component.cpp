@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gcs/screen/shell/screen_component.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "components/battery_message.hpp"
 #include "components/conversions.hpp"
+#include "components/fix_message.hpp"
 #include "components/manual_control_message.hpp"
-#include "gcs/screen/shell/ground_commands.hpp"
 #include "gcs/screen/shell/reports.hpp"
 
 namespace swiftlet::screen {
@@ -20,50 +15,34 @@ using namespace std::chrono_literals;
 /// Keys are read and sticks sent that often; every second time a picture is drawn.
 constexpr Duration kTick = 50ms;
 constexpr int kPictureEvery = 2;
-/// Sticks are to be heard before the mode that they steer is asked for.
-constexpr Duration kSticksFirst = 200ms;
-
-/// What must not wait for another command's answer.
-bool is_urgent(Action::Kind kind) {
-  using Kind = Action::Kind;
-  return kind == Kind::kHover || kind == Kind::kLand || kind == Kind::kReturn ||
-         kind == Kind::kDisarm;
-}
 
 }  // namespace
 
 ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal& terminal,
                                  ErrorLines& errors)
-    : Component(context),
+    : VehicleListener(context),
       terminal_(terminal),
       errors_(errors),
       sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain}),
       asker_(advertise(topic::parameter_request)) {
   manual_control_ = advertise(topic::manual_control);
+  mission_parts_ = advertise(topic::mission_upload);
+  mission_fetch_ = advertise(topic::mission_fetch);
   listen();
   every(kTick, [this](Time now) { advance(now); });
 }
 
 void ScreenComponent::listen() {
-  subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
-    model_.hear(report_of(status), now());
-  });
   subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
     model_.hear(from_msg(odometry), now());
     sender_.hear(odometry);
   });
-  subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
-    model_.hear(from_msg(battery), now());
-  });
   subscribe(topic::gps_fix,
-            [this](const sensor_msgs::msg::NavSatFix& fix) { model_.hear(fix_of(fix), now()); });
-  subscribe(topic::guard_status, [this](const swiftlet_msgs::msg::GuardStatus& guard) {
-    model_.hear(GuardReport{guard.acting(), guard.reason()}, now());
-  });
-  subscribe(topic::component_status, [this](const swiftlet_msgs::msg::ComponentStatus& status) {
-    if (!status.active()) return;
-    model_.hear_component(status.component_name(), {status.problems()}, now());
-  });
+            [this](const sensor_msgs::msg::NavSatFix& fix) { model_.hear(from_msg(fix), now()); });
+  subscribe(
+      topic::claw_state,
+      [this](const swiftlet_msgs::msg::ClawState& claw) { model_.hear(report_of(claw), now()); },
+      Need::kOptional);
   subscribe(topic::diagnostics, [this](const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
     if (const auto link = link_of(diagnostics)) model_.hear(*link, now());
   });
@@ -77,18 +56,27 @@ void ScreenComponent::listen() {
   subscribe(topic::parameter_reply, [this](const swiftlet_msgs::msg::ParameterReply& reply) {
     if (asker_.hear(reply)) hear(reply);
   });
+  subscribe(
+      topic::mission_download,
+      [this](const swiftlet_msgs::msg::MissionPart& part) { errand_.hear(part, now()); },
+      Need::kOptional);
+}
+
+void ScreenComponent::heard(const swiftlet_msgs::msg::MissionState& state) {
+  errand_.hear(state, now());
 }
 
 void ScreenComponent::advance(Time now) {
   bool pressed = false;
   for (const KeyCode key : terminal_.keys()) {
     pressed = true;
-    for (const Action& action : controller_.press(key, circumstances(now))) carry_out(action, now);
+    for (const Action& action : controller_.press(key, circumstances_of(model_, now))) {
+      carry_out(action, now);
+    }
   }
   steer(now);
-  if (const auto outcome = sender_.advance(now)) {
-    tell(outcome->accepted ? Severity::kSuccess : Severity::kDanger, outcome->text);
-  }
+  carry_mission(now);
+  if (const auto outcome = sender_.advance(now)) take(*outcome, now);
   if (asker_.advance(now))
     tell(Severity::kDanger, "parameters: no answer; is the component there?");
   for (const LogLine& line : errors_.take()) model_.note(now, line.severity, line.text);
@@ -106,70 +94,9 @@ void ScreenComponent::steer(Time now) {
   steered_ = sticks.has_value();
 }
 
-void ScreenComponent::carry_out(const Action& action, Time now) {
-  using Kind = Action::Kind;
-  if (action.kind == Kind::kQuit) return stop(0);
-  if (action.kind == Kind::kListParameters || action.kind == Kind::kSetParameter) {
-    return ask(action, now);
-  }
-  send(action, now);
-}
-
-void ScreenComponent::send(const Action& action, Time now) {
-  const GroundCommand command = ground_command(action);
-  const bool steers = action.kind == Action::Kind::kManual || action.kind == Action::Kind::kAssist;
-  if (sender_.busy() && !is_urgent(action.kind)) {
-    return tell(Severity::kCaution,
-                fmt::format("{}: wait, {} is under way", command.name, sender_.name()));
-  }
-  sender_.begin(command, now, steers ? now + kSticksFirst : now);
-  model_.set_command({command.name + ": sending...", Severity::kCaution});
-}
-
-void ScreenComponent::ask(const Action& action, Time now) {
-  namespace request = swiftlet_msgs::msg::ParameterRequest_Constants;
-  ParameterAsker::Request message;
-  message.component_name(action.component);
-  message.command(action.kind == Action::Kind::kSetParameter ? request::SET : request::LIST);
-  message.name(action.name);
-  message.value(action.value);
-  asker_.ask(message, now);
-}
-
-void ScreenComponent::hear(const swiftlet_msgs::msg::ParameterReply& reply) {
-  if (!reply.accepted()) return tell(Severity::kDanger, reply.reason());
-  ParameterList& list = controller_.parameters();
-  if (list.component != reply.component_name()) return;
-  const bool is_whole = list.entries.empty();
-  for (const auto& parameter : reply.parameters()) {
-    const ParameterEntry entry{parameter.name(), parameter.value(), parameter.limits(),
-                               parameter.live()};
-    if (is_whole) {
-      list.entries.push_back(entry);
-      continue;
-    }
-    for (ParameterEntry& known : list.entries) {
-      if (known.name == entry.name) known = entry;
-    }
-    tell(Severity::kSuccess,
-         fmt::format("{}.{} is now {}", list.component, entry.name, entry.value));
-  }
-}
-
 void ScreenComponent::tell(Severity severity, const std::string& text) {
   model_.set_command({text, severity});
   model_.note(now(), severity, text);
-}
-
-Circumstances ScreenComponent::circumstances(Time now) const {
-  Circumstances circumstances;
-  circumstances.now = now;
-  circumstances.in_flight = model_.vehicle().known() && model_.vehicle()->in_flight;
-  if (model_.pose().known() && model_.pose()->p_WB.allFinite()) {
-    circumstances.vehicle = model_.pose()->p_WB;
-  }
-  for (const auto& [name, heard] : model_.components()) circumstances.components.push_back(name);
-  return circumstances;
 }
 
 }  // namespace swiftlet::screen

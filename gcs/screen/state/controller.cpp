@@ -4,36 +4,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 namespace swiftlet::screen {
 namespace {
 
-constexpr std::size_t kLongestText = 60;
-/// Of a picture, with one key.
-constexpr double kPan = 0.25;
+/// Paths of files are the longest.
+constexpr std::size_t kLongestText = 200;
 
 std::optional<double> number(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool whole = !text.empty() && end == text.c_str() + text.size();
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-Action action(Action::Kind kind) {
-  Action action;
-  action.kind = kind;
-  return action;
-}
-
-Action mission(const std::string& name, std::vector<MissionWaypoint> waypoints) {
-  Action action;
-  action.kind = Action::Kind::kMission;
-  action.name = name;
-  action.waypoints = std::move(waypoints);
-  return action;
 }
 
 }  // namespace
@@ -63,19 +47,9 @@ std::vector<Action> Controller::press(KeyCode key, const Circumstances& circumst
     case Keyboard::kParameters:
       return edit_parameters(deed, circumstances);
     case Keyboard::kText:
-      if (deed == Deed::kErase) {
-        if (!text_.empty()) text_.pop_back();
-        return {};
-      }
-      if (deed == Deed::kAccept) return accept_text(circumstances);
-      close();
-      return {};
+      return edit_text(deed);
     case Keyboard::kConfirm:
-      close();
-      if (deed != Deed::kYes) return {};
-      if (!asked_to_clear_) return {asked_};
-      waypoints_.clear();
-      return {};
+      return answer(deed);
     case Keyboard::kHelp:
       close();
       return {};
@@ -99,7 +73,9 @@ std::vector<Action> Controller::fly(Deed deed, const Circumstances& circumstance
     case Deed::kLand:
       return {action(Kind::kLand)};
     case Deed::kHover:
-      return {action(Kind::kHover)};
+      return hover(circumstances);
+    case Deed::kGoOn:
+      return {action(Kind::kGoOn)};
     case Deed::kReturn:
       return {action(Kind::kReturn)};
     case Deed::kExplore:
@@ -107,6 +83,12 @@ std::vector<Action> Controller::fly(Deed deed, const Circumstances& circumstance
     case Deed::kManual:
     case Deed::kAssist:
       return steer(deed);
+    case Deed::kOpenClaw:
+      if (!circumstances.in_flight) return {action(Kind::kOpenClaw)};
+      ask("Open the claw? What it holds will fall.", action(Kind::kOpenClaw));
+      return {};
+    case Deed::kCloseClaw:
+      return {action(Kind::kCloseClaw)};
     case Deed::kBeginCursor:
       begin_cursor(Keyboard::kCursor, circumstances);
       return {};
@@ -114,190 +96,76 @@ std::vector<Action> Controller::fly(Deed deed, const Circumstances& circumstance
       begin_cursor(Keyboard::kWaypoints, circumstances);
       return {};
     case Deed::kBeginParameters:
-      parameters_ = {};
-      parameters_.components = circumstances.components;
-      keyboard_ = Keyboard::kParameters;
-      return {};
-    case Deed::kLeft:
-      camera_.pan(-kPan, 0.0);
-      return {};
-    case Deed::kRight:
-      camera_.pan(kPan, 0.0);
-      return {};
-    case Deed::kUp:
-      camera_.pan(0.0, kPan);
-      return {};
-    case Deed::kDown:
-      camera_.pan(0.0, -kPan);
+      begin_parameters(circumstances);
       return {};
     case Deed::kQuit:
       if (!circumstances.in_flight) return {action(Kind::kQuit)};
       ask("Quit? The vehicle is in flight, and goes on without you.", action(Kind::kQuit));
       return {};
     default:
-      look(deed);
+      if (!look(deed)) map_.pan(deed);
       return {};
   }
 }
 
 bool Controller::look(Deed deed) {
-  switch (deed) {
-    case Deed::kZoomIn:
-      camera_.zoom_in();
-      return true;
-    case Deed::kZoomOut:
-      camera_.zoom_out();
-      return true;
-    case Deed::kFollow:
-      camera_.follow();
-      return true;
-    case Deed::kShowAll:
-      camera_.show_all();
-      return true;
-    case Deed::kHelp:
-      open(Keyboard::kHelp);
-      return true;
-    default:
-      return false;
-  }
+  if (deed != Deed::kHelp) return map_.look(deed);
+  open(Keyboard::kHelp);
+  return true;
 }
 
 void Controller::begin_cursor(Keyboard keyboard, const Circumstances& circumstances) {
-  const double step = camera_.cursor_step();
-  const Eigen::Vector2d at = circumstances.vehicle
-                                 ? Eigen::Vector2d(circumstances.vehicle->head<2>())
-                                 : camera_.view().centre;
-  cursor_ = {std::round(at.x() / step) * step, std::round(at.y() / step) * step};
+  map_.begin_cursor(circumstances.vehicle);
   keyboard_ = keyboard;
 }
 
-void Controller::move_cursor(Deed deed) {
-  const double step = camera_.cursor_step();
-  const auto move = [step](double& coordinate, int by) {
-    coordinate = (std::round(coordinate / step) + by) * step;
-  };
-  if (deed == Deed::kLeft) move(cursor_->x(), -1);
-  if (deed == Deed::kRight) move(cursor_->x(), 1);
-  if (deed == Deed::kDown) move(cursor_->y(), -1);
-  if (deed == Deed::kUp) move(cursor_->y(), 1);
+void Controller::end_cursor() {
+  map_.end_cursor();
+  keyboard_ = Keyboard::kFly;
 }
 
 Eigen::Vector3d Controller::place(const Circumstances& circumstances) const {
-  const auto& items = waypoints_.items();
   double height = kUsualAltitude;
   if (circumstances.in_flight && circumstances.vehicle) {
     height = std::round(circumstances.vehicle->z() * 10.0) / 10.0;
   }
-  const bool has_list = keyboard_ == Keyboard::kWaypoints && !items.empty();
-  if (has_list) height = items[static_cast<std::size_t>(waypoints_.selected())].position.z();
-  return {cursor_->x(), cursor_->y(), height};
+  if (keyboard_ == Keyboard::kWaypoints) height = waypoints_.height_nearby().value_or(height);
+  return {cursor()->x(), cursor()->y(), height};
 }
 
 std::vector<Action> Controller::use_cursor(Deed deed, const Circumstances& circumstances) {
   if (look(deed)) return {};
-  if (deed == Deed::kHover) return {action(Action::Kind::kHover)};
-  move_cursor(deed);
+  if (deed == Deed::kHover) return hover(circumstances);
+  if (deed == Deed::kGoOn) return {action(Action::Kind::kGoOn)};
+  map_.move_cursor(deed);
   if (deed != Deed::kLeave && deed != Deed::kAccept) return {};
-  const Eigen::Vector3d there = place(circumstances);
-  keyboard_ = Keyboard::kFly;
-  cursor_.reset();
+  Action go_to = action(Action::Kind::kGoTo);
+  go_to.place = place(circumstances);
+  end_cursor();
   if (deed == Deed::kLeave) return {};
-  return {mission("goto", {{there, std::nullopt}})};
+  return {go_to};
 }
 
-std::vector<Action> Controller::edit_waypoints(Deed deed, const Circumstances& circumstances) {
-  if (look(deed)) return {};
-  move_cursor(deed);
-  switch (deed) {
-    case Deed::kHover:
-      return {action(Action::Kind::kHover)};
-    case Deed::kAppend:
-      waypoints_.append(place(circumstances));
-      return {};
-    case Deed::kInsert:
-      waypoints_.insert(place(circumstances));
-      return {};
-    case Deed::kMove:
-      waypoints_.move_to(*cursor_);
-      return {};
-    case Deed::kHeight:
-      if (waypoints_.empty()) return {};
-      write(Deed::kHeight, fmt::format("Height of waypoint {} [m]", waypoints_.selected() + 1),
-            fmt::format("{:g}", place(circumstances).z()));
-      return {};
-    case Deed::kRemove:
-      waypoints_.remove();
-      return {};
-    case Deed::kClear:
-      if (waypoints_.empty()) return {};
-      ask(fmt::format("Remove all {} waypoints?", waypoints_.items().size()), {});
-      asked_to_clear_ = true;
-      return {};
-    case Deed::kNext:
-      waypoints_.select_next();
-      return {};
-    case Deed::kPrevious:
-      waypoints_.select_previous();
-      return {};
-    case Deed::kEarlier:
-      waypoints_.earlier();
-      return {};
-    case Deed::kLater:
-      waypoints_.later();
-      return {};
-    case Deed::kStart:
-      if (waypoints_.empty()) return {};
-      keyboard_ = Keyboard::kFly;
-      cursor_.reset();
-      return {mission(fmt::format("mission of {}", waypoints_.items().size()), waypoints_.items())};
-    case Deed::kLeave:
-      keyboard_ = Keyboard::kFly;
-      cursor_.reset();
-      return {};
-    default:
-      return {};
-  }
+/// A mission that is only told to hover goes on by itself where it waits; one that is paused does
+/// not.
+std::vector<Action> Controller::hover(const Circumstances& circumstances) const {
+  return {action(circumstances.mission_flies ? Action::Kind::kPauseMission : Action::Kind::kHover)};
 }
 
-std::vector<Action> Controller::edit_parameters(Deed deed, const Circumstances& circumstances) {
-  ParameterList& list = parameters_;
-  if (deed == Deed::kUp) list.selected = std::max(0, list.selected - 1);
-  if (deed == Deed::kDown)
-    list.selected = std::max(0, std::min(list.size() - 1, list.selected + 1));
-  if (deed == Deed::kLeave) {
-    if (list.component.empty()) {
-      keyboard_ = Keyboard::kFly;
-    } else {
-      list = {};
-      list.components = circumstances.components;
-    }
+std::vector<Action> Controller::edit_text(Deed deed) {
+  if (deed == Deed::kAccept) return accept_text();
+  if (deed == Deed::kErase) {
+    if (!text_.empty()) text_.pop_back();
+  } else {
+    close();
   }
-  if (deed != Deed::kAccept || list.size() == 0) return {};
-  const auto selected = static_cast<std::size_t>(std::max(0, list.selected));
-  if (list.component.empty()) {
-    list.component = list.components.at(selected);
-    list.selected = 0;
-    Action ask = action(Action::Kind::kListParameters);
-    ask.component = list.component;
-    return {ask};
-  }
-  const ParameterEntry& entry = list.entries.at(selected);
-  write(Deed::kBeginParameters, fmt::format("{}.{}", list.component, entry.name), entry.value);
   return {};
 }
 
-std::vector<Action> Controller::accept_text(const Circumstances&) {
+std::vector<Action> Controller::accept_text() {
+  if (about_ == Deed::kBeginParameters) return accept_parameter();
+  if (about_ == Deed::kSave || about_ == Deed::kLoad) return accept_file(about_);
   const std::optional<double> value = number(text_);
-  if (about_ == Deed::kBeginParameters) {
-    close();
-    const auto selected = static_cast<std::size_t>(parameters_.selected);
-    if (selected >= parameters_.entries.size()) return {};  // they are others by now
-    Action set = action(Action::Kind::kSetParameter);
-    set.component = parameters_.component;
-    set.name = parameters_.entries[selected].name;
-    set.value = text_;
-    return {set};
-  }
   // What is no number stays, to be put right.
   if (!value) return {};
   close();
@@ -308,6 +176,14 @@ std::vector<Action> Controller::accept_text(const Circumstances&) {
   Action takeoff = action(Action::Kind::kTakeoff);
   takeoff.altitude = *value;
   return {takeoff};
+}
+
+std::vector<Action> Controller::answer(Deed deed) {
+  close();
+  if (deed != Deed::kYes) return {};
+  if (asked_) return {*asked_};
+  waypoints_.clear();
+  return {};
 }
 
 std::vector<Action> Controller::steer(Deed deed) {
@@ -329,7 +205,6 @@ std::optional<Sticks> Controller::sticks(Time now) const {
 void Controller::ask(const std::string& question, Action action) {
   prompt_ = question;
   asked_ = std::move(action);
-  asked_to_clear_ = false;
   open(Keyboard::kConfirm);
 }
 

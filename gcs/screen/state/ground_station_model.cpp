@@ -19,6 +19,12 @@ constexpr Threshold kBatteryThresholds[] = {
 
 }  // namespace
 
+std::string describe_pause(const MissionReport& report) {
+  const std::string where = fmt::format("mission paused at item {}", report.item);
+  // That it is paused is no reason.
+  return report.reason.empty() || report.reason == "paused" ? where : where + ": " + report.reason;
+}
+
 void GroundStationModel::hear(const VehicleReport& report, Time now) {
   if (!vehicle_.known()) {
     log_.add(now, Severity::kSuccess, "vehicle heard: " + report.mode);
@@ -49,6 +55,13 @@ void GroundStationModel::note_changes(const VehicleReport& before, const Vehicle
   } else if (!before.ready && after.ready && !after.armed) {
     log_.add(now, Severity::kSuccess, "ready");
   }
+  note_progress(before, after, now);
+}
+
+/// Of a goto and its like. Items of a mission are its own to tell.
+void GroundStationModel::note_progress(const VehicleReport& before, const VehicleReport& after,
+                                       Time now) {
+  if (now - mission_flew_ < kStale) return;
   if (after.waypoint != before.waypoint && after.waypoint > 1 && !after.mission_done) {
     log_.add(now, Severity::kNote,
              fmt::format("waypoint {} of {}", after.waypoint, after.waypoint_count));
@@ -83,8 +96,51 @@ void GroundStationModel::hear(const BatteryReport& report, Time now) {
   battery_clock_.add(report, now);
 }
 
-void GroundStationModel::hear(const std::optional<GlobalPosition>& fix, Time now) {
+void GroundStationModel::hear(const std::optional<GlobalFix>& fix, Time now) {
   fix_.hear(fix, now);
+  if (fix && pose_.fresh(now)) origin_.add(fix->position, fix->sigma, pose_->p_WB);
+}
+
+void GroundStationModel::hear(const MissionReport& report, Time now) {
+  note_changes(mission_.known() ? *mission_ : MissionReport{}, report, now);
+  mission_.hear(report, now);
+  if (mission_flies()) mission_flew_ = now;
+}
+
+void GroundStationModel::note_changes(const MissionReport& before, const MissionReport& after,
+                                      Time now) {
+  using State = MissionReport::State;
+  if (!after.refusal.empty() &&
+      (after.refusal != before.refusal || after.upload != before.upload)) {
+    log_.add(now, Severity::kDanger, after.refusal);
+  }
+  if (after.id != before.id || after.count != before.count) {
+    const std::string what =
+        mission_.known() ? "mission of {} items uploaded" : "the vehicle has a mission of {} items";
+    log_.add(now, Severity::kNote,
+             after.count > 0 ? fmt::format(fmt::runtime(what), after.count) : "mission cleared");
+  }
+  if (after.state == before.state) {
+    if (after.state == State::kFlying && after.item != before.item) {
+      log_.add(now, Severity::kNote,
+               fmt::format("mission: item {} of {}", after.item, after.count));
+    }
+  } else if (after.state == State::kFlying) {
+    log_.add(now, Severity::kNote,
+             fmt::format("mission: flies from item {} of {}", after.item, after.count));
+  } else if (after.state == State::kPaused) {
+    log_.add(now, Severity::kCaution, describe_pause(after));
+  } else if (after.state == State::kDone) {
+    log_.add(now, Severity::kSuccess, fmt::format("mission: all {} items done", after.count));
+  }
+}
+
+void GroundStationModel::hear(const ClawReport& report, Time now) {
+  const std::string before = claw_.known() ? claw_->fault : "";
+  if (report.fault != before && !report.fault.empty()) {
+    log_.add(now, Severity::kDanger, "claw: " + report.fault);
+  }
+  claw_.hear(report, now);
 }
 
 void GroundStationModel::hear(const GuardReport& report, Time now) {
@@ -158,6 +214,7 @@ int GroundStationModel::reports_per_s(Time now) const {
 std::vector<std::string> GroundStationModel::problems(Time now) const {
   std::vector<std::string> problems;
   if (guard_.fresh(now) && guard_->acting) problems.push_back("guard: " + guard_->reason);
+  if (claw_.fresh(now) && !claw_->fault.empty()) problems.push_back("claw: " + claw_->fault);
   if (vehicle_.known() && !vehicle_->ready && !vehicle_->armed && !vehicle_->reason.empty()) {
     problems.push_back(vehicle_->reason);
   }

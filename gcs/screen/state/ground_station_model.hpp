@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "control/mission_runner.hpp"
 #include "estimation/battery/battery_clock.hpp"
-#include "estimation/geodesy/local_origin.hpp"
+#include "estimation/geodesy/global_fix.hpp"
 #include "estimation/geometry/rigid_body.hpp"
 #include "gcs/screen/drawing/map_picture.hpp"
 #include "gcs/screen/state/event_log.hpp"
@@ -32,6 +33,27 @@ struct VehicleReport {
   int waypoint_count = 0;  ///<
   bool mission_done = false;
   Eigen::Vector2d takeoff_point = Eigen::Vector2d::Zero();  ///< in the map [m]
+};
+
+/// The mission that the vehicle has.
+struct MissionReport {
+  using State = MissionRunner::State;
+  State state = State::kNone;
+  int item = 0;           ///< that is flown or was, from 1; 0 where none is
+  int count = 0;          ///< of items
+  std::string reason{};   ///< of kPaused
+  std::string id{};       ///< of its upload
+  std::string refusal{};  ///< why an upload was refused; "" where none was
+  std::string upload{};   ///< identity of the last upload, refused or not
+};
+
+/// "mission paused at item 3: manual control".
+std::string describe_pause(const MissionReport& report);
+
+/// What the vehicle carries with.
+struct ClawReport {
+  std::string state;  ///< in a word
+  std::string fault;  ///< why it does not do as it is told; "" where it does
 };
 
 struct GuardReport {
@@ -69,14 +91,17 @@ class GroundStationModel {
   static constexpr double kTrailStep = 0.1;  ///< [m]
   /// What a component lacks is noted when it lasts.
   static constexpr Duration kLasting = std::chrono::milliseconds(500);
-  /// Batteries speak up to once a second.
+  /// Batteries speak up to once a second, and missions that do not change twice.
   static constexpr Duration kBatteryStale = std::chrono::milliseconds(2500);
+  static constexpr Duration kMissionStale = std::chrono::milliseconds(2500);
 
   void hear(const VehicleReport& report, Time now);
   void hear(const RigidBodyState& state, Time now);
   void hear(const BatteryReport& report, Time now);
   /// Nothing: a receiver without a fix.
-  void hear(const std::optional<GlobalPosition>& fix, Time now);
+  void hear(const std::optional<GlobalFix>& fix, Time now);
+  void hear(const MissionReport& report, Time now);
+  void hear(const ClawReport& report, Time now);
   void hear(const GuardReport& report, Time now);
   void hear(const LinkReport& report, Time now);
   void hear_component(const std::string& name, const ComponentReport& report, Time now);
@@ -94,7 +119,14 @@ class GroundStationModel {
   std::optional<double> battery_seconds_left(Time now) const {
     return battery_clock_.seconds_left(now);
   }
-  const Heard<std::optional<GlobalPosition>>& fix() const { return fix_; }
+  const Heard<std::optional<GlobalFix>>& fix() const { return fix_; }
+  /// Where the map is on Earth; nothing while that is not known well.
+  std::optional<LocalOrigin> origin() const { return origin_.origin(); }
+  const Heard<MissionReport>& mission() const { return mission_; }
+  bool mission_flies() const {
+    return mission_.known() && mission_->state == MissionReport::State::kFlying;
+  }
+  const Heard<ClawReport>& claw() const { return claw_; }
   const Heard<GuardReport>& guard() const { return guard_; }
   const Heard<LinkReport>& link() const { return link_; }
   const std::map<std::string, Heard<ComponentReport>>& components() const { return components_; }
@@ -113,12 +145,18 @@ class GroundStationModel {
  private:
   void look_at(const std::string& name, const Heard<ComponentReport>& component, Time now);
   void note_changes(const VehicleReport& before, const VehicleReport& after, Time now);
+  void note_progress(const VehicleReport& before, const VehicleReport& after, Time now);
+  void note_changes(const MissionReport& before, const MissionReport& after, Time now);
 
   Heard<VehicleReport> vehicle_;
   Heard<RigidBodyState> pose_;
   Heard<BatteryReport> battery_{kBatteryStale};
   BatteryClock battery_clock_;
-  Heard<std::optional<GlobalPosition>> fix_;
+  Heard<std::optional<GlobalFix>> fix_;
+  OriginEstimate origin_;
+  Heard<MissionReport> mission_{kMissionStale};
+  Time mission_flew_{};  // last
+  Heard<ClawReport> claw_;
   Heard<GuardReport> guard_;
   Heard<LinkReport> link_{kBatteryStale};
   std::map<std::string, Heard<ComponentReport>> components_;

@@ -101,5 +101,13 @@ TEST(SampleMissions, GoThroughEveryFormUnchanged) {
   }
 }
 
+TEST(Remarks, ThatSayTheSameAreSaidOnce) {
+  const auto remarks = merged({{3, "a"}, {4, "b"}, {5, "a"}, {9, "a"}});
+  ASSERT_EQ(remarks.size(), 2u);
+  EXPECT_EQ(remarks[0].line, 3);
+  EXPECT_EQ(remarks[0].text, "a (and 2 more like it)");
+  EXPECT_EQ(remarks[1].text, "b");
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -15,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Not;
 using Kind = Action::Kind;
 
 const Time kBegin(1000s);
@@ -25,6 +26,7 @@ class ControllerTest : public testing::Test {
     circumstances.now = kBegin;
     circumstances.vehicle = Eigen::Vector3d(1.0, 2.0, 1.5);
     circumstances.in_flight = true;
+    circumstances.check.on_ground = false;
     circumstances.components = {"estimator", "planner"};
   }
 
@@ -42,6 +44,13 @@ class ControllerTest : public testing::Test {
       for (const Kind kind : press(key_code(static_cast<unsigned char>(c)))) kinds.push_back(kind);
     }
     return kinds;
+  }
+
+  /// In place of what an entry has.
+  std::vector<Kind> write(const std::string& text) {
+    while (!controller.text().empty()) press(KeyCode::kBackspace);
+    press(text);
+    return press(KeyCode::kEnter);
   }
 
   Controller controller;
@@ -98,9 +107,8 @@ TEST_F(ControllerTest, TheCursorBeginsAtTheVehicleAndFliesThere) {
   const double step = controller.camera().cursor_step();
   for (int i = 0; i < 3; ++i) press(KeyCode::kRight);
   press(KeyCode::kUp);
-  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kMission));
-  ASSERT_EQ(last.waypoints.size(), 1u);
-  EXPECT_TRUE(last.waypoints[0].position.isApprox(Eigen::Vector3d(1.0 + 3 * step, 2.0 + step, 1.5)))
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kGoTo));
+  EXPECT_TRUE(last.place.isApprox(Eigen::Vector3d(1.0 + 3 * step, 2.0 + step, 1.5)))
       << "at the height that it has";
   EXPECT_FALSE(controller.cursor());
   press("g");
@@ -110,7 +118,7 @@ TEST_F(ControllerTest, TheCursorBeginsAtTheVehicleAndFliesThere) {
 
 TEST_F(ControllerTest, WaypointsAreEditedInPlaceAndFlownAsOneMission) {
   const auto east_of = [&](std::size_t i) {
-    return controller.waypoints().items().at(i).position.x();
+    return controller.waypoints().items().at(i).item.place.position.x();
   };
   press("w");
   EXPECT_THAT(press("s"), IsEmpty()) << "nothing to fly";
@@ -134,19 +142,107 @@ TEST_F(ControllerTest, WaypointsAreEditedInPlaceAndFlownAsOneMission) {
   EXPECT_NEAR(east_of(1), 1.0 + step, 1e-9);
   press(KeyCode::kUp);
   press("m");
-  EXPECT_NEAR(controller.waypoints().items()[1].position.y(), 2.0 + step, 1e-9);
+  EXPECT_NEAR(controller.waypoints().items()[1].item.place.position.y(), 2.0 + step, 1e-9);
   press("z");
-  for (int i = 0; i < 5; ++i) press(KeyCode::kBackspace);
-  press("0.9");
-  press(KeyCode::kEnter);
-  EXPECT_NEAR(controller.waypoints().items()[1].position.z(), 0.9, 1e-9);
-  EXPECT_THAT(press("s"), ElementsAre(Kind::kMission));
-  EXPECT_EQ(last.waypoints.size(), 3u);
+  write("0.9");
+  EXPECT_NEAR(controller.waypoints().items()[1].item.place.position.z(), 0.9, 1e-9);
+  EXPECT_THAT(press("s"), testing::Contains(Kind::kFlyMission));
+  EXPECT_EQ(last.mission.items.size(), 3u);
+  EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
   press("wcn");
   EXPECT_EQ(controller.waypoints().items().size(), 3u);
   press("cy");
   EXPECT_TRUE(controller.waypoints().empty());
   EXPECT_EQ(controller.keyboard(), Keyboard::kWaypoints);
+}
+
+TEST_F(ControllerTest, WhatCannotBeFlownIsNotSentAndTheItemIsShown) {
+  press("waaa");
+  press("b");
+  press("z");
+  write("1e6");
+  press("n");
+  EXPECT_EQ(controller.waypoints().selected(), 2);
+  const auto kinds = press("s");
+  EXPECT_THAT(kinds, Not(testing::Contains(Kind::kFlyMission)));
+  EXPECT_EQ(kinds.back(), Kind::kTell);
+  EXPECT_EQ(last.severity, Severity::kDanger);
+  EXPECT_THAT(last.text, testing::StartsWith("not sent: item 2: "));
+  EXPECT_EQ(controller.waypoints().selected(), 1);
+  EXPECT_EQ(controller.keyboard(), Keyboard::kWaypoints) << "to be put right";
+
+  circumstances.check.on_ground = true;
+  press("z");
+  write("1.2");
+  press("s");
+  EXPECT_THAT(last.text, testing::HasSubstr("begin with a take-off"));
+}
+
+TEST_F(ControllerTest, SpacePausesAMissionThatFliesAndGoingOnIsOneKey) {
+  for (const char* keyboard : {"", "g", "w"}) {
+    press(keyboard);
+    circumstances.mission_flies = false;
+    EXPECT_THAT(press(" "), ElementsAre(Kind::kHover)) << keyboard;
+    circumstances.mission_flies = true;
+    EXPECT_THAT(press(" "), ElementsAre(Kind::kPauseMission)) << keyboard;
+    EXPECT_THAT(press("u"), ElementsAre(Kind::kGoOn)) << keyboard;
+    press(KeyCode::kEscape);
+  }
+  EXPECT_THAT(press("h"), ElementsAre(Kind::kPauseMission));
+}
+
+TEST_F(ControllerTest, TheClawIsNotOpenedInFlightByMistake) {
+  EXPECT_THAT(press("c"), ElementsAre(Kind::kCloseClaw));
+  EXPECT_THAT(press("o"), IsEmpty());
+  EXPECT_THAT(press("n"), IsEmpty());
+  EXPECT_THAT(press("oy"), ElementsAre(Kind::kOpenClaw));
+  circumstances.in_flight = false;
+  EXPECT_THAT(press("o"), ElementsAre(Kind::kOpenClaw));
+}
+
+TEST_F(ControllerTest, FilesAreNamedAndTheLastNameIsRemembered) {
+  press("w");
+  EXPECT_THAT(press("w"), IsEmpty());
+  EXPECT_EQ(controller.keyboard(), Keyboard::kWaypoints) << "nothing to write";
+  press("o");
+  EXPECT_THAT(press(KeyCode::kEnter), IsEmpty()) << "it has no name";
+  EXPECT_EQ(controller.keyboard(), Keyboard::kText);
+  EXPECT_THAT(write("yard.plan"), ElementsAre(Kind::kLoad));
+  EXPECT_EQ(last.file, "yard.plan");
+  press("aw");
+  EXPECT_EQ(controller.text(), "yard.plan");
+  EXPECT_THAT(write("b.yaml"), ElementsAre(Kind::kSave));
+  EXPECT_EQ(last.file, "b.yaml");
+  EXPECT_FALSE(last.replaces);
+  controller.waypoints().set_kept("b.yaml");
+  press("w");
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kSave));
+  EXPECT_TRUE(last.replaces) << "its own file";
+}
+
+TEST_F(ControllerTest, AListIsReplacedUnaskedOnlyWhereNothingIsLost) {
+  press("w");
+  EXPECT_THAT(press("d"), ElementsAre(Kind::kFetchMission)) << "it is empty";
+  press("aa");
+  EXPECT_THAT(press("d"), IsEmpty());
+  EXPECT_THAT(press("n"), IsEmpty());
+  EXPECT_THAT(press("dy"), ElementsAre(Kind::kFetchMission));
+  press("o");
+  EXPECT_THAT(write("b.yaml"), IsEmpty());
+  EXPECT_THAT(press("y"), ElementsAre(Kind::kLoad));
+  EXPECT_EQ(last.file, "b.yaml");
+  controller.waypoints().set_kept("b.yaml");
+  EXPECT_THAT(press("d"), ElementsAre(Kind::kFetchMission));
+  press("m");
+  EXPECT_THAT(press("d"), IsEmpty()) << "it was edited";
+}
+
+TEST_F(ControllerTest, ClearingTheVehiclesMissionAsks) {
+  press("wa");
+  EXPECT_THAT(press("v"), IsEmpty());
+  EXPECT_THAT(press("y"), ElementsAre(Kind::kClearMission));
+  EXPECT_EQ(controller.waypoints().size(), 1u) << "the list is another thing";
+  EXPECT_THAT(press("vn"), IsEmpty());
 }
 
 TEST_F(ControllerTest, SticksGoBackWhenNoKeyComes) {

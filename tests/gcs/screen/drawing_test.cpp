@@ -159,6 +159,8 @@ TEST(Widgets, ABarIsAsFullAsItsShare) {
 TEST(Widgets, WrapsAtWords) {
   EXPECT_THAT(wrap("no path to waypoint 2", 8), ElementsAre("no path", "to", "waypoint", "2"));
   EXPECT_THAT(wrap("", 8), ElementsAre());
+  EXPECT_THAT(wrap("in /a/long/päth.yaml: x", 8),
+              ElementsAre("in", "/a/long/", "päth.yam", "l: x"));
 }
 
 TEST(Widgets, AListShowsTheSelectedLine) {

@@ -137,13 +137,13 @@ TEST(MapDrawing, ShowsTheVehicleAndWhereItLooks) {
 
 TEST(MapDrawing, NumbersWaypointsAndMarksPadAndCursor) {
   MapScene scene;
-  scene.waypoints = {{0.0, 1.0}, {3.0, 1.0}};
-  scene.selected = 1;
+  scene.waypoints = {{1, {0.0, 1.0}}, {4, {3.0, 1.0}}};
+  scene.selected = 4;
   scene.pad = Eigen::Vector2d(1.5, 2.0);
   scene.cursor = Eigen::Vector2d(1.5, -0.5);
   const Drawn drawn = draw(scene);
   EXPECT_EQ(drawn.surface.at(10, 10).glyph, U'1');
-  EXPECT_EQ(drawn.surface.at(29, 10).glyph, U'2');
+  EXPECT_EQ(drawn.surface.at(29, 10).glyph, U'4');
   EXPECT_TRUE(drawn.surface.at(29, 10).style.inverse);
   EXPECT_NE(drawn.text().find('H'), std::string::npos);
   EXPECT_NE(drawn.text().find("─┼─"), std::string::npos);

@@ -4,6 +4,7 @@
 
 #include "gcs/screen/drawing/surface.hpp"
 #include "gcs/screen/screen_painter.hpp"
+#include "gcs/screen/state/circumstances.hpp"
 
 namespace swiftlet::screen {
 namespace {
@@ -74,6 +75,42 @@ TEST(GroundStationModel, NotesEachChangeOfModeWithItsReason) {
                                    "Takeoff → Hover: at its height"));
 }
 
+TEST(GroundStationModel, NotesWhatBecomesOfTheMission) {
+  using State = MissionReport::State;
+  GroundStationModel model;
+  MissionReport mission;
+  const auto hear = [&model, &mission] { model.hear(mission, kBegin); };
+  hear();
+  mission = {State::kReady, 0, 5, "", "a", "", "a"};
+  hear();
+  mission.state = State::kFlying;
+  mission.item = 1;
+  hear();
+  hear();
+  mission.item = 3;
+  hear();
+  mission.state = State::kPaused;
+  mission.reason = "the pilot took over";
+  hear();
+  mission.upload = "b";
+  mission.refusal = "mission refused: it is being flown";
+  hear();
+  hear();
+  mission.upload = "c";  // again, for the same reason
+  hear();
+  mission = {State::kDone, 0, 5, "", "a", mission.refusal, "c"};
+  hear();
+  mission = {State::kNone, 0, 0, "", "", mission.refusal, "c"};
+  hear();
+  EXPECT_THAT(
+      texts(model),
+      testing::ElementsAre("mission of 5 items uploaded", "mission: flies from item 1 of 5",
+                           "mission: item 3 of 5", "mission paused at item 3: the pilot took over",
+                           "mission refused: it is being flown", "mission: all 5 items done",
+                           "mission cleared"));
+  EXPECT_EQ(model.log().events()[4].times, 2);
+}
+
 TEST(GroundStationModel, TrailAndLogAreBounded) {
   GroundStationModel model;
   for (int i = 0; i < 20'000; ++i) {
@@ -138,6 +175,106 @@ TEST(GroundStationModel, SaysWhenTheBatteryFallsBelowAThreshold) {
                                                  "battery below 10 %"));
 }
 
+MissionReport mission(MissionReport::State state, int item, const std::string& reason = "") {
+  return {state, item, 5, reason};
+}
+
+TEST(GroundStationModel, TellsHowTheVehiclesMissionGoes) {
+  using State = MissionReport::State;
+  GroundStationModel model;
+  VehicleReport vehicle = report("Indoor Navigation");
+  vehicle.navigates = true;
+  model.hear(vehicle, kBegin);
+  EXPECT_THAT(screen_of(model, kBegin), HasSubstr("mission  none"));
+  model.hear(mission(State::kReady, 0), kBegin);
+  model.hear(mission(State::kFlying, 1), kBegin + 1s);
+  EXPECT_TRUE(model.mission_flies());
+  model.hear(mission(State::kFlying, 3), kBegin + 2s);
+  model.hear(vehicle, kBegin + 2s);
+  EXPECT_THAT(screen_of(model, kBegin + 2s), HasSubstr("mission  3 of 5 flying"));
+  model.hear(mission(State::kPaused, 3, "manual control"), kBegin + 3s);
+  vehicle = report("Manual");
+  model.hear(vehicle, kBegin + 3s);
+  EXPECT_FALSE(model.mission_flies());
+  const std::string paused = screen_of(model, kBegin + 3s, 120, 40);
+  EXPECT_THAT(paused, HasSubstr("mission  3 of 5 paused"));
+  EXPECT_THAT(paused, HasSubstr("mission paused at item 3: manual"));
+  model.hear(mission(State::kDone, 0), kBegin + 4s);
+  EXPECT_THAT(texts(model),
+              testing::IsSupersetOf({"the vehicle has a mission of 5 items",
+                                     "mission: flies from item 1 of 5", "mission: item 3 of 5",
+                                     "mission paused at item 3: manual control",
+                                     "mission: all 5 items done"}));
+}
+
+TEST(GroundStationModel, AWayWithinAMissionIsNotTheMission) {
+  GroundStationModel model;
+  VehicleReport vehicle = report("Indoor Navigation");
+  vehicle.navigates = true;
+  vehicle.waypoint_count = 2;
+  vehicle.waypoint = 1;
+  model.hear(mission(MissionReport::State::kFlying, 2), kBegin);
+  model.hear(vehicle, kBegin);
+  vehicle.waypoint = 2;
+  vehicle.mission_done = true;
+  model.hear(vehicle, kBegin + 500ms);
+  EXPECT_THAT(texts(model), Not(Contains("mission done")));
+  // A goto beside a mission that waits.
+  model.hear(mission(MissionReport::State::kPaused, 2), kBegin + 600ms);
+  vehicle.mission_done = false;
+  vehicle.waypoint = vehicle.waypoint_count = 1;
+  model.hear(vehicle, kBegin + 3s);
+  EXPECT_THAT(screen_of(model, kBegin + 3s), HasSubstr("mission  to 1 of 1"));
+  vehicle.mission_done = true;
+  model.hear(vehicle, kBegin + 4s);
+  EXPECT_THAT(texts(model), Contains("mission done"));
+}
+
+TEST(GroundStationModel, AClawIsShownOnceItWasHeard) {
+  GroundStationModel model;
+  model.hear(report("Hover"), kBegin);
+  EXPECT_THAT(screen_of(model, kBegin), Not(HasSubstr("claw")));
+  for (const auto& [width, height] : {std::pair(60, 20), std::pair(80, 24), std::pair(120, 40)}) {
+    model.hear(ClawReport{"holding", ""}, kBegin);
+    EXPECT_THAT(screen_of(model, kBegin, width, height), HasSubstr("claw     holding"));
+  }
+  model.hear(ClawReport{"fault", "the servo is silent"}, kBegin);
+  EXPECT_THAT(texts(model).back(), HasSubstr("claw: the servo is silent"));
+  EXPECT_THAT(model.problems(kBegin), Contains(HasSubstr("servo is silent")));
+}
+
+TEST(GroundStationModel, LearnsWhereTheMapIsOnEarth) {
+  const LocalOrigin truth({47.4, 8.5, 450.0});
+  GroundStationModel model;
+  EXPECT_FALSE(model.origin());
+  for (int i = 0; i < 20; ++i) {
+    const Time now = kBegin + i * 200ms;
+    const RigidBodyState state = at(0.5 * i, 2.0);
+    model.hear(state, now);
+    model.hear(std::optional(GlobalFix{truth.to_global(state.p_WB), 1.0}), now);
+  }
+  ASSERT_TRUE(model.origin());
+  EXPECT_LT(model.origin()->to_map(truth.position()).norm(), 0.01);
+  // Where the vehicle is not known, a fix says nothing of the map.
+  const auto before = model.origin()->position();
+  model.hear(std::optional(GlobalFix{{48.0, 8.5, 450.0}, 0.01}), kBegin + 60s);
+  EXPECT_EQ(model.origin()->position().latitude, before.latitude);
+}
+
+TEST(Circumstances, AreWhatAMissionIsCheckedBy) {
+  GroundStationModel model;
+  EXPECT_FALSE(circumstances_of(model, kBegin).check.on_ground) << "nobody knows";
+  model.hear(report("Grounded"), kBegin);
+  model.hear(at(3.0, 4.0), kBegin);
+  EXPECT_TRUE(circumstances_of(model, kBegin).check.on_ground);
+  EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 3.0) << "where it stands";
+  VehicleReport flying = report("Hover");
+  flying.takeoff_point = {1.0, 2.0};
+  model.hear(flying, kBegin);
+  EXPECT_FALSE(circumstances_of(model, kBegin).check.on_ground);
+  EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 1.0);
+}
+
 class Sizes : public testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(Sizes, ShowWhatMatters) {
@@ -164,8 +301,9 @@ INSTANTIATE_TEST_SUITE_P(EachLayout, Sizes,
 TEST(Layout, NoPartCoversAnotherAtAnySize) {
   for (int width = kLeastWidth; width <= 260; width += 7) {
     for (int height = kLeastHeight; height <= 90; height += 3) {
-      for (const bool edits : {false, true}) {
-        const Layout layout = layout_of(width, height, edits);
+      for (const auto& [edits, values] :
+           {std::pair(false, 6), std::pair(true, 6), std::pair(false, 7)}) {
+        const Layout layout = layout_of(width, height, edits, values);
         std::vector<int> covered(static_cast<std::size_t>(width * height), 0);
         for (const Area& area :
              {layout.header, layout.flight, layout.health, layout.map, layout.waypoints,

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "components/commander/mission_inbox.hpp"
+#include "components/runtime/command_line.hpp"
+#include "gcs/mission/mission_file.hpp"
+
+/// Missions between files and the vehicle, for the verbs that do so. Whatever fails ends the verb
+/// (end_verb) with its reason.
+namespace swiftlet {
+
+/// `--patience`, of every transfer.
+void add_patience(CLI::App& verb, double& patience_s);
+
+/// The mission of a file; remarks go to the error stream.
+MissionFile mission_of_file(const std::string& file);
+
+/// Its items, where it can be flown, wherever the vehicle is; what was found goes to the error
+/// stream, by `name`. Exit code 2 where it has errors.
+MissionInbox::Items flyable_items(const MissionFile& mission, const std::string& name);
+
+/// Brings items to the vehicle in place of those that it has, and reads them back. Exit code 1
+/// where it refuses them or they do not get there.
+void send_mission(const NetworkOptions& network, MissionInbox::Items items, double patience_s);
+
+/// The vehicle's mission; without items where it has none.
+MissionFile fetch_mission(const NetworkOptions& network, double patience_s);
+
+}  // namespace swiftlet

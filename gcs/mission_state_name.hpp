@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "control/mission_runner.hpp"
+
+namespace swiftlet {
+
+/// "none", "ready", "flying", "paused" or "done": the state of a MissionState as people read it.
+inline std::string mission_state_name(std::uint8_t state) {
+  for (const auto known :
+       {MissionRunner::State::kNone, MissionRunner::State::kReady, MissionRunner::State::kFlying,
+        MissionRunner::State::kPaused, MissionRunner::State::kDone}) {
+    if (static_cast<std::uint8_t>(known) == state) return to_string(known);
+  }
+  return "a state that this program does not know";
+}
+
+}  // namespace swiftlet

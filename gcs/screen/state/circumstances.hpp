@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gcs/mission/mission_check.hpp"
+#include "gcs/screen/state/ground_station_model.hpp"
+
+namespace swiftlet::screen {
+
+/// What keys depend on.
+struct Circumstances {
+  Time now{};
+  bool in_flight = false;
+  bool mission_flies = false;                ///< that the vehicle has
+  std::optional<Eigen::Vector3d> vehicle{};  ///< in the map [m]
+  std::vector<std::string> components{};     ///< that have parameters
+  MissionCheckParams check{};                ///< of a mission that is to be flown now
+};
+
+Circumstances circumstances_of(const GroundStationModel& model, Time now);
+
+}  // namespace swiftlet::screen
