@@ -34,12 +34,16 @@ CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& co
 
 }  // namespace
 
+void add_answer_patience(CLI::App& verb, double& patience) {
+  verb.add_option("--patience", patience, "For the vehicle's answer; a bad link needs more [s]")
+      ->capture_default_str()
+      ->check(within(0.1, 3600.0));
+}
+
 void CommandOptions::add_to(CLI::App& verb) {
   verb.add_flag("--wait", wait_, "Until it is done; exit code 1 where it comes to another end");
   verb.add_flag("--json", json_, "For scripts");
-  verb.add_option("--patience", patience_, "For the vehicle's answer; a bad link needs more [s]")
-      ->capture_default_str()
-      ->check(within(0.1, 3600.0));
+  add_answer_patience(verb, patience_);
 }
 
 void CommandOptions::send(const NetworkOptions& network, const GroundCommand& command) const {

@@ -7,6 +7,9 @@
 
 namespace swiftlet {
 
+/// `--patience` of verbs that wait for the vehicle to say something [s].
+void add_answer_patience(CLI::App& verb, double& patience);
+
 /// `--wait`, `--json` and `--patience`, for every verb that commands the vehicle.
 class CommandOptions {
  public:
@@ -15,6 +18,7 @@ class CommandOptions {
   /// CLI::RuntimeError(1) where it was refused, was not answered or has failed.
   void send(const NetworkOptions& network, const GroundCommand& command) const;
   bool json() const { return json_; }
+  double patience() const { return patience_; }  ///< for the vehicle's answer [s]
 
  private:
   bool wait_ = false;

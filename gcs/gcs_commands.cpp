@@ -38,13 +38,13 @@ std::string finite(const std::string& text) {
   return is_finite ? "" : "'" + text + "' is no finite number of metres";
 }
 
-void show_status(const NetworkOptions& network, bool json) {
+void show_status(const NetworkOptions& network, bool json, double patience) {
   Host host(network.host_options("gcs"));
-  auto& client = host.emplace<StatusClient>("gcs");
+  auto& client = host.emplace<StatusClient>("gcs", from_seconds(patience));
   host.run();
   if (!client.view().status) {
     fmt::print(stderr, "{}\n", nobody_answers(host.domain()));
-    throw CLI::RuntimeError(kFailed);
+    throw CLI::RuntimeError(kExitFailed);
   }
   fmt::print("{}\n", json ? to_json(client.view()) : describe(client.view()));
 }
@@ -184,11 +184,13 @@ void add_gcs_commands(CLI::App& gcs) {
     goto_options->send(*network, ground_command);
   });
 
-  auto json = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false);
+  const auto patience = std::make_shared<double>(to_seconds(StatusClient::kPatience));
   CLI::App* status = gcs.add_subcommand("status", "What the vehicle is doing");
   status->add_flag("--json", *json, "For scripts");
+  add_answer_patience(*status, *patience);
   network->add_to(*status);
-  status->callback([network, json] { show_status(*network, *json); });
+  status->callback([network, json, patience] { show_status(*network, *json, *patience); });
 
   CLI::App* watch = gcs.add_subcommand("watch", "A line a second, until Ctrl-C");
   const auto watch_json = std::make_shared<bool>(false);

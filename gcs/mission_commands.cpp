@@ -33,12 +33,12 @@ void upload(const NetworkOptions& network, const std::string& file, double patie
 
 void download(const NetworkOptions& network, const std::string& file, double patience) {
   if (const auto form = mission_form_of(file); !form.ok()) {
-    end_verb(kUnusable, form.error().reason);
+    end_verb(kExitUnusable, form.error().reason);
   }
   const MissionFile mission = fetch_mission(network, patience);
-  if (mission.items.empty()) end_verb(kFailed, "the vehicle has no mission");
+  if (mission.items.empty()) end_verb(kExitFailed, "the vehicle has no mission");
   const auto written = write_mission(file, mission);
-  if (!written.ok()) end_verb(kFailed, written.error().reason);
+  if (!written.ok()) end_verb(kExitFailed, written.error().reason);
   for (const MissionRemark& loss : *written) fmt::print(stderr, "{}: note: {}\n", file, loss.text);
   fmt::print("{}: {} items\n", file, mission.items.size());
 }
@@ -49,7 +49,7 @@ void show_state(const NetworkOptions& network, bool as_json) {
       "gcs", topic::mission_state, std::chrono::milliseconds(1800));
   host.run();
   if (!client.message()) {
-    end_verb(kFailed,
+    end_verb(kExitFailed,
              fmt::format("no vehicle says what mission it has in domain {}; does a commander "
                          "run there, and is --vehicle right?",
                          host.domain()));

@@ -44,7 +44,7 @@ void add_patience(CLI::App& verb, double& patience_s) {
 
 MissionFile mission_of_file(const std::string& file) {
   Result<MissionFile> mission = read_mission(file);
-  if (!mission.ok()) end_verb(kUnusable, mission.error().reason);
+  if (!mission.ok()) end_verb(kExitUnusable, mission.error().reason);
   for (const MissionRemark& remark : mission->remarks) {
     fmt::print(stderr, "{}:{}: note: {}\n", file, remark.line, remark.text);
   }
@@ -58,7 +58,7 @@ MissionInbox::Items flyable_items(const MissionFile& mission, const std::string&
   for (const MissionFinding& finding : check.findings) {
     fmt::print(stderr, "{}\n", describe(finding, name));
   }
-  if (check.has_errors()) end_verb(kUnusable, "the mission was not sent");
+  if (check.has_errors()) end_verb(kExitUnusable, "the mission was not sent");
   MissionInbox::Items items;
   for (const MissionItem& item : items_of(mission)) items.push_back(to_msg(item));
   return items;
@@ -75,9 +75,9 @@ void send_mission(const NetworkOptions& network, MissionInbox::Items items, doub
   terminal.clear();
   if (code == 0 && client.progress().state == TransferProgress::State::kDone) return;
   const std::string& reason = client.progress().reason;
-  end_verb(kFailed, reason.empty()
-                        ? "interrupted; the vehicle has the mission as a whole or not at all"
-                        : reason);
+  end_verb(kExitFailed, reason.empty()
+                            ? "interrupted; the vehicle has the mission as a whole or not at all"
+                            : reason);
 }
 
 MissionFile fetch_mission(const NetworkOptions& network, double patience_s) {
@@ -92,11 +92,11 @@ MissionFile fetch_mission(const NetworkOptions& network, double patience_s) {
   if (download.nothing_there()) return mission;
   if (download.progress().state != TransferProgress::State::kDone) {
     const std::string& reason = download.progress().reason;
-    end_verb(kFailed, reason.empty() ? "interrupted" : reason);
+    end_verb(kExitFailed, reason.empty() ? "interrupted" : reason);
   }
   for (const auto& message : download.items()) {
     const auto item = from_msg(message);
-    if (!item.ok()) end_verb(kFailed, item.error().reason);
+    if (!item.ok()) end_verb(kExitFailed, item.error().reason);
     mission.items.push_back({*item, 0});
   }
   return mission;

@@ -30,7 +30,7 @@ struct ValidateOptions {
 };
 
 [[noreturn]] void refuse(const std::string& reason) {
-  end_verb(kUnusable, reason);
+  end_verb(kExitUnusable, reason);
 }
 
 MissionFile load(const std::string& file, const MissionReading& reading) {
@@ -112,7 +112,7 @@ void validate(ValidateOptions options) {
   } else {
     print_text(options.file, mission, check);
   }
-  if (check.has_errors()) throw CLI::RuntimeError(kFailed);
+  if (check.has_errors()) throw CLI::RuntimeError(kExitFailed);
 }
 
 void convert(const std::string& input, const std::string& output, const MissionReading& reading) {
@@ -120,7 +120,7 @@ void convert(const std::string& input, const std::string& output, const MissionR
   const MissionFile mission = load(input, reading);
   print_remarks(stderr, input, mission.remarks);
   const auto written = write_mission(output, mission);
-  if (!written.ok()) end_verb(kFailed, written.error().reason);
+  if (!written.ok()) end_verb(kExitFailed, written.error().reason);
   print_remarks(stderr, output, *written);
   fmt::print("{}: {} items\n", output, mission.items.size());
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -17,7 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kTimeout = 1500ms;
+/// For the others, once the status is there.
+constexpr Duration kMoment = 1s;
 /// What is not heard for so long is not true any more.
 constexpr Duration kStale = 1s;
 
@@ -115,9 +117,19 @@ std::string to_json_line(const VehicleView& view) {
   return json_of(view).dump(-1, ' ', false, kReplace);
 }
 
+StatusClient::StatusClient(const ComponentContext& context, Duration patience)
+    : StatusClient(context, patience, nullptr) {}
+
 StatusClient::StatusClient(const ComponentContext& context, Line each_second)
-    : Component(context), each_second_(each_second), begin_(now()), status_heard_(begin_) {
+    : StatusClient(context, kPatience, each_second) {}
+
+StatusClient::StatusClient(const ComponentContext& context, Duration patience, Line each_second)
+    : Component(context),
+      each_second_(each_second),
+      deadline_(now() + patience),
+      status_heard_(now()) {
   subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
+    if (!view_.status) deadline_ = std::min(deadline_, now() + kMoment);
     status_heard_ = now();
     view_.status = status;
   });
@@ -133,7 +145,7 @@ void StatusClient::advance(Time now) {
     if (now - status_heard_ > kStale) view_ = {};
     fmt::print("{}\n", each_second_(view_));
     std::fflush(stdout);
-  } else if ((view_.status && view_.odometry && view_.battery) || now - begin_ > kTimeout) {
+  } else if ((view_.status && view_.odometry && view_.battery) || now > deadline_) {
     stop(view_.status ? 0 : 1);
   }
 }

@@ -22,21 +22,24 @@ std::string one_line(const VehicleView& view);
 std::string to_json(const VehicleView& view);
 std::string to_json_line(const VehicleView& view);
 
-/// Listens to the vehicle until status, odometry and battery were heard, or for a moment; then it
-/// ends the run.
+/// Listens to the vehicle until its status was heard, at most for `patience`, and then for a moment
+/// for odometry and battery; then it ends the run.
 class StatusClient : public Component {
  public:
-  /// With `each_second`, what that makes of the view is printed, a line a second until it is
-  /// interrupted.
+  static constexpr Duration kPatience = std::chrono::milliseconds(1500);
+  explicit StatusClient(const ComponentContext& context, Duration patience = kPatience);
+  /// What `each_second` makes of the view is printed, a line a second until it is interrupted.
   using Line = std::string (*)(const VehicleView& view);
-  explicit StatusClient(const ComponentContext& context, Line each_second = nullptr);
+  StatusClient(const ComponentContext& context, Line each_second);
   const VehicleView& view() const { return view_; }
 
  private:
   void advance(Time now);
 
+  StatusClient(const ComponentContext& context, Duration patience, Line each_second);
+
   Line each_second_;
-  Time begin_;
+  Time deadline_;
   Time status_heard_;
   VehicleView view_;
 };

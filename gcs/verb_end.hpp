@@ -11,8 +11,8 @@
 namespace swiftlet {
 
 /// Exit codes of verbs.
-inline constexpr int kFailed = 1;    ///< refused, not answered, or come to another end
-inline constexpr int kUnusable = 2;  ///< what was typed, or a file, cannot be used
+inline constexpr int kExitFailed = 1;    ///< refused, not answered, or come to another end
+inline constexpr int kExitUnusable = 2;  ///< what was typed, or a file, cannot be used
 
 /// Ends a verb with the reason on the error stream.
 [[noreturn]] inline void end_verb(int code, const std::string& reason) {

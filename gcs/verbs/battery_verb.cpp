@@ -22,9 +22,9 @@ void show(const NetworkOptions& network, const Options& options) {
   const auto& client = host.emplace<BatteryClient>("gcs", from_seconds(options.seconds));
   host.run();
   if (!client.view()) {
-    end_verb(kFailed, fmt::format("no battery is heard in domain {} for {:g} s; is --vehicle "
-                                  "right? What there is: swiftlet topic list",
-                                  host.domain(), options.seconds));
+    end_verb(kExitFailed, fmt::format("no battery is heard in domain {} for {:g} s; is --vehicle "
+                                      "right? What there is: swiftlet topic list",
+                                      host.domain(), options.seconds));
   }
   fmt::print("{}", options.json ? to_json(*client.view()) : describe(*client.view()));
 }

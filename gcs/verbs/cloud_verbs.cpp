@@ -25,16 +25,16 @@ struct Options {
 /// Before minutes of listening, rather than after.
 CloudParams checked(const Options& options) {
   if (const auto form = cloud_form_of(options.file); !form.ok()) {
-    end_verb(kUnusable, form.error().reason);
+    end_verb(kExitUnusable, form.error().reason);
   }
   if (const Status place = check_writable(options.file); !place.ok()) {
-    end_verb(kUnusable, place.error().reason);
+    end_verb(kExitUnusable, place.error().reason);
   }
   CloudParams params;
   params.topic = options.topic.substr(options.topic.rfind('/', 0) == 0 ? 1 : 0);
   if (!params.topic.empty()) {
     const Status name = check_name(params.topic);
-    if (!name.ok()) end_verb(kUnusable, "--topic: " + name.error().reason);
+    if (!name.ok()) end_verb(kExitUnusable, "--topic: " + name.error().reason);
   }
   params.length = from_seconds(options.seconds);
   params.patience = from_seconds(options.patience);
@@ -50,12 +50,12 @@ void save(const NetworkOptions& network, const Options& options) {
   host.run();
   terminal.clear();
   if (!client.done()) {
-    end_verb(kFailed,
+    end_verb(kExitFailed,
              client.problem().empty() ? "interrupted; nothing was written" : client.problem());
   }
   const std::vector<Eigen::Vector3d> points = client.collector().cloud().points();
   const Status saved = save_cloud(points, options.file);
-  if (!saved.ok()) end_verb(kUnusable, saved.error().reason);
+  if (!saved.ok()) end_verb(kExitUnusable, saved.error().reason);
   const int count = client.collector().placed();
   if (options.json) {
     const nlohmann::ordered_json json = {{"file", options.file},

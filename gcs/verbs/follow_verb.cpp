@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 
 #include "gcs/command_options.hpp"
@@ -12,15 +13,17 @@
 namespace swiftlet {
 namespace {
 
+/// A transfer may take long without anything being wrong [s].
+constexpr double kTransferPatience = 20.0;
+
 struct Options {
   std::string file;
-  double patience = 20.0;
   CommandOptions command;
 };
 
 void follow(const NetworkOptions& network, const Options& options) {
   MissionInbox::Items items = flyable_items(mission_of_file(options.file), options.file);
-  send_mission(network, std::move(items), options.patience);
+  send_mission(network, std::move(items), std::max(kTransferPatience, options.command.patience()));
   GroundCommand start;
   start.name = "follow";
   start.command = swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;
@@ -39,7 +42,6 @@ void add_follow_verb(CLI::App& gcs, const std::shared_ptr<NetworkOptions>& netwo
       "The vehicle must be armed: swiftlet gcs arm. The same in steps: mission validate, mission "
       "upload, mission start.\nExit codes: 0 it flies (with --wait: it is done), 1 refused or come "
       "to another end, 2 the file cannot be used.");
-  add_patience(*verb, options->patience);
   options->command.add_to(*verb);
   network->add_to(*verb);
   verb->callback([network, options] { follow(*network, *options); });

@@ -32,7 +32,7 @@ void tell(const NetworkOptions& network, const Options& options) {
   if (options.length_s) length = from_seconds(*options.length_s);
   Host host(network.host_options("gcs"));
   host.emplace<LogClient>("gcs", length, print);
-  if (host.run() != 0) end_verb(kFailed, nobody_answers(host.domain()));
+  if (host.run() != 0) end_verb(kExitFailed, nobody_answers(host.domain()));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ const MapClient& hear_map(Host& host, const Options& options, bool scene) {
   const auto& client = host.emplace<MapClient>("gcs", from_seconds(options.patience), scene);
   const int code = host.run();
   if (!client.map()) {
-    end_verb(kFailed,
+    end_verb(kExitFailed,
              code == 0 ? "interrupted"
                        : fmt::format("no map is heard in domain {} for {:g} s; does lidar_mapper "
                                      "run there, and is --vehicle right?",
@@ -50,7 +50,7 @@ void show(const NetworkOptions& network, const Options& options) {
   const int width = options.width > 0 ? options.width : screen::terminal_width();
   const bool ascii = options.ascii || !screen::locale_is_utf8();
   const std::string text = screen::map_text(model, host.executor().now(), width, ascii);
-  if (text.empty()) end_verb(kFailed, "the map is empty: nothing was seen yet");
+  if (text.empty()) end_verb(kExitFailed, "the map is empty: nothing was seen yet");
   const Eigen::Vector2d size = model.map_extent()->upper - model.map_extent()->lower;
   fmt::print("{}{:.1f} x {:.1f} m in cells of {:g} m", text, size.x(), size.y(),
              model.map()->resolution);
@@ -63,7 +63,7 @@ void show(const NetworkOptions& network, const Options& options) {
 /// Before it listens, rather than after.
 void check_file(const std::filesystem::path& file) {
   if (const Status place = check_map_file(file); !place.ok()) {
-    end_verb(kUnusable, place.error().reason);
+    end_verb(kExitUnusable, place.error().reason);
   }
 }
 
@@ -73,10 +73,10 @@ void save(const NetworkOptions& network, const Options& options) {
   const MapClient& client = hear_map(host, options, false);
   const OccupancyGrid grid = from_msg(*client.map(), OccupancyGrid::Params());
   if (grid.empty()) {
-    end_verb(kFailed, "the map that is heard has no cells, or is turned against its axes");
+    end_verb(kExitFailed, "the map that is heard has no cells, or is turned against its axes");
   }
   const Status saved = save_map(grid, options.file);
-  if (!saved.ok()) end_verb(kUnusable, saved.error().reason);
+  if (!saved.ok()) end_verb(kExitUnusable, saved.error().reason);
   if (options.json) {
     const nlohmann::ordered_json json = {{"file", options.file},
                                          {"width", grid.width()},

@@ -38,19 +38,19 @@ std::string json_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   return json.dump(2) + "\n";
 }
 
-void show(const NetworkOptions& network, bool json) {
+void show(const NetworkOptions& network, const CommandOptions& options) {
   Host host(network.host_options("gcs"));
   const auto& client = host.emplace<FirstMessage<swiftlet_msgs::msg::VehicleStatus>>(
-      "gcs", topic::vehicle_status, std::chrono::milliseconds(1500));
+      "gcs", topic::vehicle_status, from_seconds(options.patience()));
   host.run();
-  if (!client.message()) end_verb(kFailed, nobody_answers(host.domain()));
-  fmt::print("{}", json ? json_of(*client.message()) : text_of(*client.message()));
+  if (!client.message()) end_verb(kExitFailed, nobody_answers(host.domain()));
+  fmt::print("{}", options.json() ? json_of(*client.message()) : text_of(*client.message()));
 }
 
 void run(const NetworkOptions& network, const Options& options) {
-  if (options.words.empty()) return show(network, options.command.json());
+  if (options.words.empty()) return show(network, options.command);
   const auto code = command_of_mode(fmt::format("{}", fmt::join(options.words, " ")));
-  if (!code.ok()) end_verb(kUnusable, code.error().reason);
+  if (!code.ok()) end_verb(kExitUnusable, code.error().reason);
   GroundCommand command;
   command.name = command_name(*code);
   command.command = *code;

@@ -57,9 +57,9 @@ template <class Edit>
 void edit(const NetworkOptions& network, const Options& options, Edit change) {
   std::vector<MissionItem> items = items_of(fetch_mission(network, options.patience));
   const Status changed = change(items);
-  if (!changed.ok()) end_verb(kUnusable, changed.error().reason);
+  if (!changed.ok()) end_verb(kExitUnusable, changed.error().reason);
   if (items.empty()) {
-    end_verb(kUnusable,
+    end_verb(kExitUnusable,
              "it is the only item, and a mission without any cannot be sent; to forget the "
              "mission: swiftlet gcs mission clear");
   }
