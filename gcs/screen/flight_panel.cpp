@@ -100,6 +100,14 @@ Style battery_style(double share) {
   return share <= 0.3 ? kWarning : kGood;
 }
 
+/// "15.2 V 12.0 A ", as far as it is measured.
+std::string measured_text(const BatteryReport& battery) {
+  std::string text;
+  if (std::isfinite(battery.voltage)) text += fmt::format("{:.1f} V ", battery.voltage);
+  if (std::isfinite(battery.current)) text += fmt::format("{:.1f} A ", battery.current);
+  return text;
+}
+
 void paint_battery(const Pane& pane, const GroundStationModel& model, Time now) {
   const int end = pane.width() - 1;
   const auto& battery = model.battery();
@@ -111,8 +119,7 @@ void paint_battery(const Pane& pane, const GroundStationModel& model, Time now) 
   const std::string left =
       fresh ? time_left_text(model.battery_seconds_left(now)) : age_text(battery.age(now)) + " ago";
   std::string text = fmt::format("{:.0f} % {}", battery->percentage * 100.0, left);
-  if (pane.width() >= 100)
-    text = fmt::format("{:.1f} V {:.1f} A  ", battery->voltage, battery->current) + text + " left";
+  if (pane.width() >= 100) text = measured_text(*battery) + " " + text + " left";
   const Style style = fresh ? battery_style(battery->percentage) : kDim;
   pane.text_before(end, 0, text, style);
   const int bar = pane.width() >= 80 ? 8 : 0;
@@ -156,7 +163,8 @@ void paint_header(const Pane& pane, const GroundStationModel& model, Time now) {
     x = pane.text(x + 2, 0, "link ", kDim);
     x = pane.text(x, 0, age_text(vehicle.age(now)), kGood);
     if (pane.width() >= 100) {
-      pane.text(x + 1, 0, fmt::format("{} reports/s", model.reports_per_s(now)), kDim);
+      x = pane.text(x + 1, 0, fmt::format("{} reports/s", model.reports_per_s(now)), kDim);
+      if (model.lives_on_telemetry(now)) pane.text(x + 1, 0, "by telemetry", kDim);
     }
   } else {
     constexpr Style lost{Hue::kRed, true, false, true};

@@ -16,8 +16,8 @@ void append(std::vector<Line>& lines, const std::string& text, int columns, Styl
   for (const std::string& line : wrap(text, columns)) lines.push_back({line, style});
 }
 
-std::string kilobytes(double bytes) {
-  return fmt::format("{:.1f}", bytes / 1000.0);
+std::string bytes_text(double bytes) {
+  return bytes < 1000.0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{:.1f} kB", bytes / 1e3);
 }
 
 }  // namespace
@@ -50,7 +50,10 @@ void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
     if (problems.empty()) {
       lines.push_back({vehicle->armed || !vehicle->ready ? "all well" : "ready to arm", kGood});
     }
-    lines.push_back({fmt::format("{} components", model.components().size()), kDim});
+    const bool is_told = model.components().empty() && model.lives_on_telemetry(now);
+    lines.push_back({is_told ? "known by telemetry alone"
+                             : fmt::format("{} components", model.components().size()),
+                     kDim});
     const auto& mission = model.mission();
     if (mission.fresh(now) && mission->state == MissionReport::State::kPaused) {
       append(lines, describe_pause(*mission), pane.width(), kWarning);
@@ -70,16 +73,29 @@ void paint_link(const Pane& pane, const GroundStationModel& model, Time now) {
   }
   const Style style = link.fresh(now) ? kPlain : kDim;
   pane.text(0, 0,
-            fmt::format("{} of {} kB/s", kilobytes(link->bytes_per_s),
-                        kilobytes(link->budget_bytes_per_s)),
+            fmt::format("{} of {}/s", bytes_text(link->bytes_per_s),
+                        bytes_text(link->budget_bytes_per_s)),
             style);
+  if (!link.fresh(now)) pane.text_before(pane.width(), 0, age_text(link.age(now)), kWarning);
   draw_bar(pane, 0, 1, pane.width(), link->bytes_per_s / link->budget_bytes_per_s, style);
-  for (std::size_t i = 0; i < link->topics.size(); ++i) {
-    const TopicShare& share = link->topics[i];
-    const int y = 2 + static_cast<int>(i);
-    pane.text(0, y, share.topic, share.thinned ? kWarning : style, pane.width() - 7);
-    pane.text_before(pane.width(), y, kilobytes(share.bytes_per_s), style);
+  const auto row = [&](int y, const std::string& name, double bytes_per_s, Style name_style) {
+    pane.text(0, y, name, name_style, pane.width() - 9);
+    pane.text_before(pane.width(), y, bytes_text(bytes_per_s), style);
+  };
+  const auto count = static_cast<int>(link->topics.size());
+  const int rows = pane.height() - 2;
+  // The last row has all those that have none of their own.
+  const int shown = count <= rows ? count : rows - 1;
+  double others = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const TopicShare& share = link->topics[static_cast<std::size_t>(i)];
+    if (i < shown) {
+      row(2 + i, share.topic, share.bytes_per_s, share.thinned ? kWarning : style);
+    } else {
+      others += share.bytes_per_s;
+    }
   }
+  if (shown < count) row(2 + shown, fmt::format("{} others", count - shown), others, style);
 }
 
 void paint_events(const Pane& pane, const EventLog& log) {

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gcs/screen/shell/reports.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 
 #include "components/conversions.hpp"
+#include "components/fix_message.hpp"
 #include "components/mode_message.hpp"
+#include "components/telemetry/telemetry_message.hpp"
 #include "gcs/mission_state_name.hpp"
 
 namespace swiftlet::screen {
@@ -16,22 +21,83 @@ namespace {
 /// topic.
 constexpr char kLink[] = "ground_link";
 
-double value_of(const diagnostic_msgs::msg::DiagnosticStatus& status, const char* key) {
+namespace flag = swiftlet_msgs::msg::Telemetry_Constants;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+VehicleReport report_of_mode(std::uint8_t mode) {
+  using namespace swiftlet_msgs::msg::VehicleStatus_Constants;
+  VehicleReport report;
+  report.mode = mode_name(mode);
+  report.in_flight = mode != GROUNDED;
+  report.navigates =
+      mode == INDOOR_NAVIGATION || mode == INDOOR_EXPLORATION || mode == GPS_GUIDANCE;
+  return report;
+}
+
+ClawReport report_of_claw(std::uint8_t state, const std::string& reason) {
+  using namespace swiftlet_msgs::msg::ClawState_Constants;
+  constexpr const char* kNames[] = {"not moved yet", "opening", "open", "closing",
+                                    "closed",        "holding", "fault"};
+  static_assert(FAULT + 1 == std::size(kNames));
+  if (state > FAULT) return {"?", ""};
+  return {kNames[state], state == FAULT ? reason : ""};
+}
+
+bool has(const swiftlet_msgs::msg::Telemetry& telemetry, std::uint8_t bit) {
+  return (telemetry.flags() & bit) != 0;
+}
+
+Eigen::Vector3d vector_of(const std::array<float, 3>& triple) {
+  return Eigen::Vector3f(triple.data()).cast<double>();
+}
+
+RigidBodyState pose_of(const swiftlet_msgs::msg::Telemetry& telemetry) {
+  const Eigen::Vector3d attitude = vector_of(telemetry.attitude());
+  RigidBodyState state;
+  state.p_WB = vector_of(telemetry.position());
+  state.v_WB_W = vector_of(telemetry.velocity());
+  state.q_WB = Eigen::AngleAxisd(attitude.z(), Eigen::Vector3d::UnitZ()) *
+               Eigen::AngleAxisd(attitude.y(), Eigen::Vector3d::UnitY()) *
+               Eigen::AngleAxisd(attitude.x(), Eigen::Vector3d::UnitX());
+  return state;
+}
+
+MissionReport mission_of(const swiftlet_msgs::msg::Telemetry& telemetry) {
+  using State = MissionReport::State;
+  MissionReport report;
+  report.item = telemetry.item();
+  report.count = telemetry.item_count();
+  if (report.count > 0) report.state = report.item > 0 ? State::kPaused : State::kReady;
+  if (has(telemetry, flag::MISSION_FLYING)) report.state = State::kFlying;
+  return report;
+}
+
+TelemetryReport::Health health_of(std::uint8_t level) {
+  using Health = TelemetryReport::Health;
+  using namespace diagnostic_msgs::msg::DiagnosticStatus_Constants;
+  if (level == OK) return Health::kWell;
+  if (level == WARN) return Health::kWarned;
+  return level == ERROR ? Health::kError : Health::kUnknown;
+}
+
+const std::string* find_value(const diagnostic_msgs::msg::DiagnosticStatus& status,
+                              const char* key) {
   for (const auto& entry : status.values()) {
-    if (entry.key() == key) return std::strtod(entry.value().c_str(), nullptr);
+    if (entry.key() == key) return &entry.value();
   }
-  return 0.0;
+  return nullptr;
+}
+
+double value_of(const diagnostic_msgs::msg::DiagnosticStatus& status, const char* key) {
+  const std::string* value = find_value(status, key);
+  return value == nullptr ? 0.0 : std::strtod(value->c_str(), nullptr);
 }
 
 }  // namespace
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
-  using namespace swiftlet_msgs::msg::VehicleStatus_Constants;
-  VehicleReport report;
-  report.mode = mode_name(status.mode());
-  report.in_flight = status.mode() != GROUNDED;
-  report.navigates = status.mode() == INDOOR_NAVIGATION || status.mode() == INDOOR_EXPLORATION ||
-                     status.mode() == GPS_GUIDANCE;
+  VehicleReport report = report_of_mode(status.mode());
   report.armed = status.armed();
   report.ready = status.ready();
   report.reason = status.reason();
@@ -39,7 +105,7 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   report.waypoint = static_cast<int>(status.waypoint());
   report.waypoint_count = static_cast<int>(status.waypoint_count());
   report.mission_done = status.mission_done();
-  report.takeoff_point = from_msg(status.takeoff_point()).head<2>();
+  report.takeoff_point = Eigen::Vector2d(from_msg(status.takeoff_point()).head<2>());
   return report;
 }
 
@@ -59,12 +125,39 @@ MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission) {
 }
 
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw) {
-  using namespace swiftlet_msgs::msg::ClawState_Constants;
-  constexpr const char* kNames[] = {"not moved yet", "opening", "open", "closing",
-                                    "closed",        "holding", "fault"};
-  static_assert(FAULT + 1 == std::size(kNames));
-  if (claw.state() > FAULT) return {"?", ""};
-  return {kNames[claw.state()], claw.state() == FAULT ? claw.reason() : ""};
+  return report_of_claw(claw.state(), claw.reason());
+}
+
+TelemetryReport report_of(const swiftlet_msgs::msg::Telemetry& telemetry) {
+  TelemetryReport report;
+  if (telemetry.mode() != kUnknownMode) {
+    report.vehicle = report_of_mode(telemetry.mode());
+    report.vehicle->armed = has(telemetry, flag::ARMED);
+    report.vehicle->ready = has(telemetry, flag::READY);
+    report.vehicle->reason = telemetry.reason();
+    report.vehicle->height = static_cast<double>(telemetry.height());
+  }
+  if (has(telemetry, flag::POSITION_KNOWN)) report.pose = pose_of(telemetry);
+  if (has(telemetry, flag::BATTERY_KNOWN)) {
+    report.battery = BatteryReport{static_cast<double>(telemetry.battery()),
+                                   static_cast<double>(telemetry.voltage()), kNan, kNan};
+  }
+  if (std::isfinite(telemetry.time_left())) {
+    report.battery_seconds_left = static_cast<double>(telemetry.time_left());
+  }
+  if (has(telemetry, flag::GLOBAL_POSITION_KNOWN)) {
+    report.fix = GlobalFix{
+        {telemetry.latitude(), telemetry.longitude(), static_cast<double>(telemetry.altitude())},
+        kUnknownFixSigma};
+  }
+  report.mission = mission_of(telemetry);
+  namespace claw = swiftlet_msgs::msg::ClawState_Constants;
+  if (telemetry.claw() != claw::UNKNOWN) {
+    report.claw = report_of_claw(telemetry.claw(), "has a fault");
+  }
+  report.guard = {has(telemetry, flag::GUARD_ACTING), telemetry.reason()};
+  report.health = health_of(telemetry.health());
+  return report;
 }
 
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
@@ -78,7 +171,8 @@ std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& d
     if (status.name() == kLink) {
       report.bytes_per_s = bytes_per_s;
       report.budget_bytes_per_s = value_of(status, "budget_bytes_per_s");
-    } else if (status.name().rfind(prefix, 0) == 0) {
+    } else if (status.name().rfind(prefix, 0) == 0 && find_value(status, "bytes_per_s")) {
+      // What comes from the ground has no share.
       report.topics.push_back({status.name().substr(prefix.size()), bytes_per_s,
                                value_of(status, "over_budget_per_s") > 0.0});
     }

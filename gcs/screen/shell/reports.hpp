@@ -13,6 +13,7 @@ namespace swiftlet::screen {
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
 MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission);
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw);
+TelemetryReport report_of(const swiftlet_msgs::msg::Telemetry& telemetry);
 /// Nothing where it is not that of a ground link.
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics);
 std::shared_ptr<const GridMap> map_of(const nav_msgs::msg::OccupancyGrid& map);

@@ -43,6 +43,12 @@ void ScreenComponent::listen() {
       topic::claw_state,
       [this](const swiftlet_msgs::msg::ClawState& claw) { model_.hear(report_of(claw), now()); },
       Need::kOptional);
+  subscribe(
+      topic::telemetry,
+      [this](const swiftlet_msgs::msg::Telemetry& telemetry) {
+        model_.hear(report_of(telemetry), now());
+      },
+      Need::kOptional);
   subscribe(topic::diagnostics, [this](const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
     if (const auto link = link_of(diagnostics)) model_.hear(*link, now());
   });

@@ -18,7 +18,7 @@ Circumstances circumstances_of(const GroundStationModel& model, Time now) {
   // Where that is not known, the vehicle refuses what it cannot fly.
   check.on_ground = vehicle.fresh(now) && !vehicle->in_flight;
   if (circumstances.in_flight) {
-    check.takeoff.head<2>() = vehicle->takeoff_point;
+    if (vehicle->takeoff_point) check.takeoff.head<2>() = *vehicle->takeoff_point;
   } else if (circumstances.vehicle) {
     check.takeoff = *circumstances.vehicle;
   }

@@ -14,6 +14,21 @@ struct Threshold {
   double percentage;
   Severity severity;
 };
+/// What telemetry has instead of what components say; "" where all is well.
+std::string describe(TelemetryReport::Health health) {
+  switch (health) {
+    case TelemetryReport::Health::kWell:
+      return "";
+    case TelemetryReport::Health::kWarned:
+      return "on board: a warning";
+    case TelemetryReport::Health::kError:
+      return "on board: an error";
+    case TelemetryReport::Health::kUnknown:
+      return "on board: somebody is silent";
+  }
+  return "";
+}
+
 constexpr Threshold kBatteryThresholds[] = {
     {0.1, Severity::kDanger}, {0.2, Severity::kDanger}, {0.3, Severity::kCaution}};
 
@@ -26,6 +41,11 @@ std::string describe_pause(const MissionReport& report) {
 }
 
 void GroundStationModel::hear(const VehicleReport& report, Time now) {
+  first_hand_.vehicle.hear(now);
+  take(report, now);
+}
+
+void GroundStationModel::take(const VehicleReport& report, Time now) {
   if (!vehicle_.known()) {
     log_.add(now, Severity::kSuccess, "vehicle heard: " + report.mode);
   } else {
@@ -72,6 +92,11 @@ void GroundStationModel::note_progress(const VehicleReport& before, const Vehicl
 }
 
 void GroundStationModel::hear(const RigidBodyState& state, Time now) {
+  first_hand_.pose.hear(now);
+  take(state, now);
+}
+
+void GroundStationModel::take(const RigidBodyState& state, Time now) {
   pose_.hear(state, now);
   const Eigen::Vector2d place = state.p_WB.head<2>();
   if (!place.allFinite()) return;
@@ -81,6 +106,11 @@ void GroundStationModel::hear(const RigidBodyState& state, Time now) {
 }
 
 void GroundStationModel::hear(const BatteryReport& report, Time now) {
+  first_hand_.battery.hear(now);
+  take(report, now);
+}
+
+void GroundStationModel::take(const BatteryReport& report, Time now) {
   if (battery_.known()) {
     for (const Threshold& threshold : kBatteryThresholds) {
       if (battery_->percentage <= threshold.percentage ||
@@ -97,11 +127,21 @@ void GroundStationModel::hear(const BatteryReport& report, Time now) {
 }
 
 void GroundStationModel::hear(const std::optional<GlobalFix>& fix, Time now) {
+  first_hand_.fix.hear(now);
+  take(fix, now);
+}
+
+void GroundStationModel::take(const std::optional<GlobalFix>& fix, Time now) {
   fix_.hear(fix, now);
   if (fix && pose_.fresh(now)) origin_.add(fix->position, fix->sigma, pose_->p_WB);
 }
 
 void GroundStationModel::hear(const MissionReport& report, Time now) {
+  first_hand_.mission.hear(now);
+  take(report, now);
+}
+
+void GroundStationModel::take(const MissionReport& report, Time now) {
   note_changes(mission_.known() ? *mission_ : MissionReport{}, report, now);
   mission_.hear(report, now);
   if (mission_flies()) mission_flew_ = now;
@@ -136,6 +176,11 @@ void GroundStationModel::note_changes(const MissionReport& before, const Mission
 }
 
 void GroundStationModel::hear(const ClawReport& report, Time now) {
+  first_hand_.claw.hear(now);
+  take(report, now);
+}
+
+void GroundStationModel::take(const ClawReport& report, Time now) {
   const std::string before = claw_.known() ? claw_->fault : "";
   if (report.fault != before && !report.fault.empty()) {
     log_.add(now, Severity::kDanger, "claw: " + report.fault);
@@ -144,6 +189,11 @@ void GroundStationModel::hear(const ClawReport& report, Time now) {
 }
 
 void GroundStationModel::hear(const GuardReport& report, Time now) {
+  first_hand_.guard.hear(now);
+  take(report, now);
+}
+
+void GroundStationModel::take(const GuardReport& report, Time now) {
   const bool acted = guard_.known() && guard_->acting;
   if (report.acting && !acted) log_.add(now, Severity::kDanger, "guard acts: " + report.reason);
   if (!report.acting && acted) log_.add(now, Severity::kNote, "guard lets go");
@@ -152,6 +202,37 @@ void GroundStationModel::hear(const GuardReport& report, Time now) {
 
 void GroundStationModel::hear(const LinkReport& report, Time now) {
   link_.hear(report, now);
+}
+
+void GroundStationModel::hear(const TelemetryReport& report, Time now) {
+  telemetry_.hear(report, now);
+  const auto silent = [now](const FirstHand& source) { return source.silent(now); };
+  if (report.vehicle && silent(first_hand_.vehicle)) take(*report.vehicle, now);
+  if (report.pose && silent(first_hand_.pose)) take(*report.pose, now);
+  if (report.battery && silent(first_hand_.battery)) take(*report.battery, now);
+  if (report.fix && silent(first_hand_.fix)) take(report.fix, now);
+  if (report.claw && silent(first_hand_.claw)) take(*report.claw, now);
+  if (silent(first_hand_.guard)) take(report.guard, now);
+  if (!report.vehicle || !silent(first_hand_.mission)) return;
+  using State = MissionReport::State;
+  MissionReport mission = report.mission;
+  if (mission_.known()) {  // what telemetry leaves out is as it was
+    mission.id = mission_->id;
+    mission.refusal = mission_->refusal;
+    mission.upload = mission_->upload;
+  }
+  const bool flew = mission_.known() && mission_->count == mission.count &&
+                    (mission_->state == State::kFlying || mission_->state == State::kDone);
+  if (mission.state == State::kReady && flew) mission.state = State::kDone;
+  take(mission, now);
+}
+
+std::optional<double> GroundStationModel::battery_seconds_left(Time now) const {
+  // On board it is known from more than what comes down.
+  if (telemetry_.fresh(now) && first_hand_.battery.silent(now)) {
+    return telemetry_->battery_seconds_left;
+  }
+  return battery_clock_.seconds_left(now);
 }
 
 void GroundStationModel::hear_component(const std::string& name, const ComponentReport& report,
@@ -217,6 +298,10 @@ std::vector<std::string> GroundStationModel::problems(Time now) const {
   if (claw_.fresh(now) && !claw_->fault.empty()) problems.push_back("claw: " + claw_->fault);
   if (vehicle_.known() && !vehicle_->ready && !vehicle_->armed && !vehicle_->reason.empty()) {
     problems.push_back(vehicle_->reason);
+  }
+  if (lives_on_telemetry(now)) {
+    const std::string health = describe(telemetry_->health);
+    if (!health.empty()) problems.push_back(health);
   }
   for (const auto& [name, problem] : component_problems_) {
     if (problem.text.empty()) continue;

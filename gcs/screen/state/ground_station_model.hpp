@@ -10,72 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "control/mission_runner.hpp"
 #include "estimation/battery/battery_clock.hpp"
-#include "estimation/geodesy/global_fix.hpp"
-#include "estimation/geometry/rigid_body.hpp"
 #include "gcs/screen/drawing/map_picture.hpp"
 #include "gcs/screen/state/event_log.hpp"
 #include "gcs/screen/state/heard.hpp"
+#include "gcs/screen/state/vehicle_reports.hpp"
 
 namespace swiftlet::screen {
-
-/// What the vehicle says of itself ten times a second.
-struct VehicleReport {
-  std::string mode;
-  bool in_flight = false;
-  bool navigates = false;  ///< along a path
-  bool armed = false;
-  bool ready = false;      ///< may be armed
-  std::string reason;      ///< of the last change of mode, or why not ready
-  double height = 0.0;     ///< above the take-off point [m]
-  int waypoint = 0;        ///< that is flown to, from 1; 0 without a mission
-  int waypoint_count = 0;  ///<
-  bool mission_done = false;
-  Eigen::Vector2d takeoff_point = Eigen::Vector2d::Zero();  ///< in the map [m]
-};
-
-/// The mission that the vehicle has.
-struct MissionReport {
-  using State = MissionRunner::State;
-  State state = State::kNone;
-  int item = 0;           ///< that is flown or was, from 1; 0 where none is
-  int count = 0;          ///< of items
-  std::string reason{};   ///< of kPaused
-  std::string id{};       ///< of its upload
-  std::string refusal{};  ///< why an upload was refused; "" where none was
-  std::string upload{};   ///< identity of the last upload, refused or not
-};
-
-/// "mission paused at item 3: manual control".
-std::string describe_pause(const MissionReport& report);
-
-/// What the vehicle carries with.
-struct ClawReport {
-  std::string state;  ///< in a word
-  std::string fault;  ///< why it does not do as it is told; "" where it does
-};
-
-struct GuardReport {
-  bool acting = false;
-  std::string reason;
-};
-
-struct ComponentReport {
-  std::vector<std::string> problems;
-};
-
-/// A topic's share of the radio link.
-struct TopicShare {
-  std::string topic;
-  double bytes_per_s = 0.0;
-  bool thinned = false;  ///< for want of budget
-};
-struct LinkReport {
-  double bytes_per_s = 0.0;
-  double budget_bytes_per_s = 0.0;
-  std::vector<TopicShare> topics;
-};
 
 /// The command that was given last, and what became of it.
 struct CommandNote {
@@ -104,6 +45,8 @@ class GroundStationModel {
   void hear(const ClawReport& report, Time now);
   void hear(const GuardReport& report, Time now);
   void hear(const LinkReport& report, Time now);
+  /// What is heard of it first-hand wins.
+  void hear(const TelemetryReport& report, Time now);
   void hear_component(const std::string& name, const ComponentReport& report, Time now);
   void hear_map(std::shared_ptr<const GridMap> map, Time now);
   void hear_path(std::vector<Eigen::Vector2d> path, Time now);
@@ -116,9 +59,7 @@ class GroundStationModel {
   const Heard<VehicleReport>& vehicle() const { return vehicle_; }
   const Heard<RigidBodyState>& pose() const { return pose_; }
   const Heard<BatteryReport>& battery() const { return battery_; }
-  std::optional<double> battery_seconds_left(Time now) const {
-    return battery_clock_.seconds_left(now);
-  }
+  std::optional<double> battery_seconds_left(Time now) const;
   const Heard<std::optional<GlobalFix>>& fix() const { return fix_; }
   /// Where the map is on Earth; nothing while that is not known well.
   std::optional<LocalOrigin> origin() const { return origin_.origin(); }
@@ -129,6 +70,11 @@ class GroundStationModel {
   const Heard<ClawReport>& claw() const { return claw_; }
   const Heard<GuardReport>& guard() const { return guard_; }
   const Heard<LinkReport>& link() const { return link_; }
+  const Heard<TelemetryReport>& telemetry() const { return telemetry_; }
+  /// Whether the vehicle is known by telemetry alone.
+  bool lives_on_telemetry(Time now) const {
+    return telemetry_.fresh(now) && first_hand_.vehicle.silent(now);
+  }
   const std::map<std::string, Heard<ComponentReport>>& components() const { return components_; }
   const std::shared_ptr<const GridMap>& map() const { return map_; }
   /// Of what is known of the map.
@@ -144,6 +90,13 @@ class GroundStationModel {
 
  private:
   void look_at(const std::string& name, const Heard<ComponentReport>& component, Time now);
+  void take(const VehicleReport& report, Time now);
+  void take(const RigidBodyState& state, Time now);
+  void take(const BatteryReport& report, Time now);
+  void take(const std::optional<GlobalFix>& fix, Time now);
+  void take(const MissionReport& report, Time now);
+  void take(const ClawReport& report, Time now);
+  void take(const GuardReport& report, Time now);
   void note_changes(const VehicleReport& before, const VehicleReport& after, Time now);
   void note_progress(const VehicleReport& before, const VehicleReport& after, Time now);
   void note_changes(const MissionReport& before, const MissionReport& after, Time now);
@@ -159,6 +112,11 @@ class GroundStationModel {
   Heard<ClawReport> claw_;
   Heard<GuardReport> guard_;
   Heard<LinkReport> link_{kBatteryStale};
+  Heard<TelemetryReport> telemetry_;
+  struct {
+    FirstHand vehicle, pose, fix, claw, guard;
+    FirstHand battery{std::chrono::seconds(2)}, mission{std::chrono::seconds(2)};
+  } first_hand_;
   std::map<std::string, Heard<ComponentReport>> components_;
   struct Problem {
     std::string text;    // "" where it is well

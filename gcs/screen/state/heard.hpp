@@ -35,4 +35,19 @@ class Heard {
   Duration stale_after_;
 };
 
+/// Who is heard first-hand needs nobody to speak for him. Others do before he is stale, so that
+/// nothing is while they know it.
+class FirstHand {
+ public:
+  explicit FirstHand(Duration silent_after = std::chrono::milliseconds(600))
+      : silent_after_(silent_after) {}
+
+  void hear(Time now) { at_ = now; }
+  bool silent(Time now) const { return !at_ || now - *at_ > silent_after_; }
+
+ private:
+  std::optional<Time> at_;
+  Duration silent_after_;
+};
+
 }  // namespace swiftlet::screen

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "gcs/screen/drawing/surface.hpp"
+#include "gcs/screen/panels.hpp"
 #include "gcs/screen/screen_painter.hpp"
 #include "gcs/screen/state/circumstances.hpp"
 
@@ -269,10 +272,101 @@ TEST(Circumstances, AreWhatAMissionIsCheckedBy) {
   EXPECT_TRUE(circumstances_of(model, kBegin).check.on_ground);
   EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 3.0) << "where it stands";
   VehicleReport flying = report("Hover");
-  flying.takeoff_point = {1.0, 2.0};
+  flying.takeoff_point = Eigen::Vector2d(1.0, 2.0);
   model.hear(flying, kBegin);
   EXPECT_FALSE(circumstances_of(model, kBegin).check.on_ground);
   EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 1.0);
+}
+
+TelemetryReport telemetry(const std::string& mode, double x) {
+  TelemetryReport telemetry;
+  telemetry.vehicle = report(mode);
+  telemetry.vehicle->armed = true;
+  telemetry.pose = at(x, 2.0);
+  telemetry.battery = BatteryReport{0.62, 15.1, std::nan(""), std::nan("")};
+  telemetry.battery_seconds_left = 540.0;
+  telemetry.health = TelemetryReport::Health::kWell;
+  telemetry.mission = mission(MissionReport::State::kFlying, 2);
+  return telemetry;
+}
+
+TEST(Telemetry, IsEnoughWhereNothingElseIsHeard) {
+  GroundStationModel model;
+  Time now = kBegin;
+  for (int i = 0; i < 10; ++i) {
+    now = kBegin + i * 200ms;
+    model.hear(telemetry("Hover", 3.5), now);
+    model.tick(now);
+  }
+  const std::string screen = screen_of(model, now, 120, 40);
+  for (const char* text : {"Hover", "ARMED", "by telemetry", "3.50 2.00", "62 %", "15.1 V",
+                           "9 min left", "all well", "2 of 5 flying", "known by telemetry alone"}) {
+    EXPECT_THAT(screen, HasSubstr(text));
+  }
+  EXPECT_THAT(screen, Not(HasSubstr("nan")));
+  TelemetryReport bad = telemetry("Hover", 3.5);
+  bad.health = TelemetryReport::Health::kError;
+  model.hear(bad, now);
+  EXPECT_THAT(screen_of(model, now), HasSubstr("on board: an error"));
+  model.tick(now + 1001ms);
+  const std::string late = screen_of(model, now + 1001ms);
+  EXPECT_THAT(late, HasSubstr("LINK LOST"));
+  EXPECT_THAT(late, HasSubstr("stale: 1.0 s"));
+}
+
+TEST(Telemetry, GivesWayToWhatIsHeardFirstHandAndStepsInWithoutAGap) {
+  GroundStationModel model;
+  for (int i = 0; i <= 30; ++i) {
+    const Time now = kBegin + i * 100ms;
+    const bool first_hand = i < 10 || i > 25;
+    if (first_hand) {
+      model.hear(report("Hover"), now);
+      model.hear(at(1.0, 2.0), now);
+    }
+    if (i % 2 == 1) model.hear(telemetry("Land", 9.0), now);
+    model.tick(now);
+    EXPECT_TRUE(model.vehicle().fresh(now) && model.pose().fresh(now)) << i;
+    if (first_hand) {
+      EXPECT_EQ(model.vehicle()->mode, "Hover") << i;
+      EXPECT_EQ(model.pose()->p_WB.x(), 1.0) << i;
+    }
+    if (i == 20) {
+      EXPECT_EQ(model.vehicle()->mode, "Land");
+      EXPECT_EQ(model.pose()->p_WB.x(), 9.0);
+    }
+  }
+  EXPECT_THAT(texts(model), Not(Contains(HasSubstr("link lost"))));
+}
+
+TEST(Telemetry, WhatIsNotKnownOnBoardIsNotKnownHere) {
+  GroundStationModel model;
+  model.hear(TelemetryReport{}, kBegin);
+  EXPECT_FALSE(model.vehicle().known() || model.pose().known() || model.battery().known() ||
+               model.claw().known());
+  // One that flew a mission, and has no item any more, has done it.
+  model.hear(telemetry("Hover", 1.0), kBegin);
+  TelemetryReport after = telemetry("Hover", 1.0);
+  after.mission = mission(MissionReport::State::kReady, 0);
+  model.hear(after, kBegin + 200ms);
+  EXPECT_EQ(model.mission()->state, MissionReport::State::kDone);
+}
+
+TEST(Link, HasARowForEachShareOrOneForThoseThatHaveNoRoom) {
+  GroundStationModel model;
+  LinkReport link{3000.0, 20'000.0, {}};
+  for (int i = 0; i < 12; ++i) link.topics.push_back({"topic" + std::to_string(i), 250.0, false});
+  model.hear(link, kBegin);
+  const auto painted = [&](int height) {
+    Surface surface(34, height);
+    paint_link(Pane(surface), model, kBegin);
+    return to_text(surface);
+  };
+  EXPECT_THAT(painted(14), HasSubstr("3.0 kB of 20.0 kB/s"));
+  EXPECT_THAT(painted(14), HasSubstr("topic11"));
+  EXPECT_THAT(painted(14), Not(HasSubstr("others")));
+  const std::string low = painted(6);
+  EXPECT_THAT(low, HasSubstr("topic2 "));
+  EXPECT_THAT(low, testing::ContainsRegex("9 others +2.2 kB"));
 }
 
 class Sizes : public testing::TestWithParam<std::pair<int, int>> {};
