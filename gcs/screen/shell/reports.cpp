@@ -12,7 +12,6 @@
 #include "components/fix_message.hpp"
 #include "components/mode_message.hpp"
 #include "components/telemetry/telemetry_message.hpp"
-#include "gcs/mission_state_name.hpp"
 
 namespace swiftlet::screen {
 namespace {
