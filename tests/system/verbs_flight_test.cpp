@@ -130,11 +130,12 @@ TEST_F(VerbsFlight, AMissionIsPutTogetherWaypointByWaypointAndFollowed) {
 
 TEST_F(VerbsFlight, ModesAreCommandedByTheirNames) {
   said({"arm", "--wait"});
-  EXPECT_THAT(said({"mode", "Takeoff", "--altitude", "1", "--wait"}), HasSubstr("hovers at 1."));
+  EXPECT_THAT(said({"mode", "Takeoff", "--altitude", "1", "--wait"}),
+              HasSubstr("takeoff: hovers at "));
   EXPECT_THAT(said({"mode"}), testing::StartsWith("Hover"));
   said({"mode", "Indoor", "Exploration"});
   EXPECT_EQ(status()["mode"], "Indoor Exploration");
-  EXPECT_THAT(said({"map", "show", "--ascii"}), HasSubstr("H")) << "where it took off";
+  EXPECT_THAT(said({"map", "show", "--ascii"}), HasSubstr("the vehicle at 0."));
   said({"mode", "hover", "--wait"});
   const Finished down = run({"gcs", "mode", "land", "--wait"}, Seconds(30.0));
   EXPECT_EQ(down.exit_code, 0) << down.err;
