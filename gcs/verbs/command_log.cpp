@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gcs/command_name.hpp"
 
@@ -13,35 +14,51 @@ namespace {
 
 constexpr std::size_t kRemembered = 100;
 
+CommandLog::Told outcome_of(const std::string& name, const swiftlet_msgs::msg::CommandAck& ack) {
+  if (ack.accepted()) return {screen::Severity::kSuccess, name + ": accepted"};
+  // Most reasons begin with "takeoff refused: ".
+  const bool says_so = ack.reason().find("refused") != std::string::npos;
+  return {screen::Severity::kDanger, says_so ? ack.reason() : name + " refused: " + ack.reason()};
+}
+
 }  // namespace
 
-CommandLog::Command& CommandLog::find_or_add(const std::string& id, const std::string& name) {
+CommandLog::Command& CommandLog::find_or_add(const std::string& id) {
   const auto known = std::find_if(commands_.begin(), commands_.end(),
                                   [&id](const Command& command) { return command.id == id; });
   if (known != commands_.end()) return *known;
   if (commands_.size() == kRemembered) commands_.pop_front();
-  return commands_.emplace_back(Command{id, name});
+  Command command;
+  command.id = id;
+  return commands_.emplace_back(std::move(command));
 }
 
 void CommandLog::hear(const swiftlet_msgs::msg::ModeCommand& command) {
-  (void)find_or_add(command.id(), command_name(command.command()));
+  find_or_add(command.id()).name = command_name(command.command());
 }
 
 void CommandLog::hear(const swiftlet_msgs::msg::Mission& mission) {
   const std::size_t count = mission.waypoints().size();
-  (void)find_or_add(mission.id(), count == 1 ? "goto" : fmt::format("{} waypoints", count));
+  find_or_add(mission.id()).name = count == 1 ? "goto" : fmt::format("{} waypoints", count);
 }
 
-std::optional<CommandLog::Told> CommandLog::hear(const swiftlet_msgs::msg::CommandAck& ack) {
-  // RViz's goals are answered, too; they have no other name.
-  Command& command = find_or_add(ack.id(), ack.id());
-  if (command.answered) return std::nullopt;
-  command.answered = true;
-  if (ack.accepted()) return Told{screen::Severity::kSuccess, command.name + ": accepted"};
-  // Most reasons begin with "takeoff refused: ".
-  const bool says_so = ack.reason().find("refused") != std::string::npos;
-  return Told{screen::Severity::kDanger,
-              says_so ? ack.reason() : command.name + " refused: " + ack.reason()};
+void CommandLog::hear(const swiftlet_msgs::msg::CommandAck& ack, Time now) {
+  Command& command = find_or_add(ack.id());
+  if (command.answer) return;
+  command.answer = ack;
+  command.answered = now;
+}
+
+std::vector<CommandLog::Told> CommandLog::news(Time now) {
+  std::vector<Told> news;
+  for (Command& command : commands_) {
+    if (command.is_told || !command.answer) continue;
+    // RViz's goals are answered, too; they have no other name than their identity.
+    if (command.name.empty() && now - command.answered < kPatience) continue;
+    command.is_told = true;
+    news.push_back(outcome_of(command.name.empty() ? command.id : command.name, *command.answer));
+  }
+  return news;
 }
 
 }  // namespace swiftlet

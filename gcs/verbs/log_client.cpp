@@ -63,14 +63,15 @@ void LogClient::listen_to_commands() {
             [this](const swiftlet_msgs::msg::ModeCommand& command) { commands_.hear(command); });
   subscribe(topic::waypoints,
             [this](const swiftlet_msgs::msg::Mission& mission) { commands_.hear(mission); });
-  subscribe(topic::mode_ack, [this](const swiftlet_msgs::msg::CommandAck& ack) {
-    const auto told = commands_.hear(ack);
-    if (told) model_.note(now(), told->severity, told->text);
-  });
+  subscribe(topic::mode_ack,
+            [this](const swiftlet_msgs::msg::CommandAck& ack) { commands_.hear(ack, now()); });
 }
 
 void LogClient::advance(Time now) {
   model_.tick(now);
+  for (const CommandLog::Told& told : commands_.news(now)) {
+    model_.note(now, told.severity, told.text);
+  }
   const auto& events = model_.log().events();
   auto news = events.end();
   while (news != events.begin() && std::prev(news)->number > told_) --news;
