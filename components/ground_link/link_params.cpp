@@ -92,6 +92,7 @@ GroundLinkParams read_ground_link(const Config& config, int vehicle_domain) {
     }
   }
   params.inward = {topic::mode.name,           topic::waypoints.name,
+                   topic::mission_upload.name, topic::mission_fetch.name,
                    topic::goal_pose.name,      topic::parameter_request.name,
                    topic::manual_control.name, topic::gcs_heartbeat.name};
   config.read("inward", params.inward);

@@ -40,9 +40,10 @@ class NetworkTest : public SystemTest {
   /// "tx_bytes", "rx_packets", ... of an interface.
   std::int64_t counter(const std::string& host, const std::string& interface,
                        const std::string& name);
+  /// A process in the host's namespace.
+  pid_t id_of(const std::string& host) const;
 
  private:
-  pid_t id_of(const std::string& host) const;
   std::string port_of(const std::string& host, const std::string& interface) const;
   Process make_namespace();
 
