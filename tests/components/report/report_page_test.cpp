@@ -119,7 +119,9 @@ TEST_F(ReportPage, IsBoundedHoweverLongTheFlightIs) {
   }
   const std::string page = report_page(told(made_up_.close()));
   EXPECT_LT(page.size(), 3'000'000U);
-  for (const auto& plot : data_of(page)["plots"]) {
+  const auto data = data_of(page);
+  ASSERT_FALSE(data["plots"].empty());
+  for (const auto& plot : data["plots"]) {
     for (const auto& series : plot["series"]) {
       EXPECT_LE(series["t"].size(), 2U * ThinnedCurve::kColumns + 2U) << plot["title"];
     }
