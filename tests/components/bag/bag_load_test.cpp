@@ -178,7 +178,7 @@ TEST_F(BagLoad, AHundredAndTwentyMegabytesASecondAreRecordedOnACore) {
 
 TEST_F(BagLoad, MoreThanTheNetworkBearsIsInTheLedger) {
   // What takes a slow program minutes to send is too much for it in a shorter time, too.
-  const double seconds = 3.0 / test::kSlowdown;
+  const double seconds = test::kSlowdown == 1 ? 3.0 : 0.5;
   for (const char* reliability : {"best_effort", "reliable"}) {
     test::Process recorder = record({"--overwrite", "--max-memory", "8MB"});
     test::Process speaker = publish({1, 1'000'000, 1000, seconds, reliability});
