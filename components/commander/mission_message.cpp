@@ -11,6 +11,33 @@
 #include "components/conversions.hpp"
 
 namespace swiftlet {
+namespace {
+
+swiftlet_msgs::msg::Waypoint make_waypoint(const MissionWaypoint& waypoint) {
+  swiftlet_msgs::msg::Waypoint message;
+  message.position(to_point(waypoint.position));
+  message.has_yaw(waypoint.yaw.has_value());
+  message.yaw(waypoint.yaw.value_or(0.0));
+  message.speed(waypoint.speed.value_or(0.0));
+  return message;
+}
+
+MissionWaypoint waypoint_of(const swiftlet_msgs::msg::Waypoint& message) {
+  MissionWaypoint waypoint;
+  waypoint.position = from_msg(message.position());
+  if (message.has_yaw()) waypoint.yaw = message.yaw();
+  if (message.speed() != 0.0) waypoint.speed = message.speed();
+  return waypoint;
+}
+
+void set_place(const GlobalWaypoint& place, swiftlet_msgs::msg::Waypoint& message) {
+  message.is_global(true);
+  message.latitude(place.latitude);
+  message.longitude(place.longitude);
+  message.altitude(place.altitude);
+}
+
+}  // namespace
 
 std::uint32_t checksum(const Cdr& cdr) {
   return static_cast<std::uint32_t>(
@@ -29,11 +56,7 @@ swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
   mission.header(make_header(time, "map"));
   mission.id(id);
   for (const MissionWaypoint& waypoint : waypoints) {
-    swiftlet_msgs::msg::Waypoint item;
-    item.position(to_point(waypoint.position));
-    item.has_yaw(waypoint.yaw.has_value());
-    item.yaw(waypoint.yaw.value_or(0.0));
-    mission.waypoints().push_back(item);
+    mission.waypoints().push_back(make_waypoint(waypoint));
   }
   mission.checksum(checksum(mission));
   return mission;
@@ -41,12 +64,7 @@ swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
 
 std::vector<MissionWaypoint> waypoints_of(const swiftlet_msgs::msg::Mission& mission) {
   std::vector<MissionWaypoint> waypoints;
-  for (const auto& item : mission.waypoints()) {
-    MissionWaypoint waypoint;
-    waypoint.position = from_msg(item.position());
-    if (item.has_yaw()) waypoint.yaw = item.yaw();
-    waypoints.push_back(waypoint);
-  }
+  for (const auto& item : mission.waypoints()) waypoints.push_back(waypoint_of(item));
   return waypoints;
 }
 
@@ -56,12 +74,7 @@ swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
   mission.header(make_header(time, "map"));
   mission.id(id);
   for (const GlobalWaypoint& waypoint : waypoints) {
-    swiftlet_msgs::msg::Waypoint item;
-    item.is_global(true);
-    item.latitude(waypoint.latitude);
-    item.longitude(waypoint.longitude);
-    item.altitude(waypoint.altitude);
-    mission.waypoints().push_back(item);
+    set_place(waypoint, mission.waypoints().emplace_back());
   }
   mission.checksum(checksum(mission));
   return mission;
@@ -70,18 +83,10 @@ swiftlet_msgs::msg::Mission make_mission(Time time, const std::string& id,
 swiftlet_msgs::msg::MissionItem to_msg(const MissionItem& item) {
   swiftlet_msgs::msg::MissionItem message;
   message.kind(static_cast<std::uint8_t>(item.kind));
-  message.place().position(to_point(item.place.position));
-  message.place().has_yaw(item.place.yaw.has_value());
-  message.place().yaw(item.place.yaw.value_or(0.0));
-  message.place().is_global(item.global.has_value());
-  if (item.global) {
-    message.place().latitude(item.global->latitude);
-    message.place().longitude(item.global->longitude);
-    message.place().altitude(item.global->altitude);
-  }
+  message.place(make_waypoint(item.place));
+  if (item.global) set_place(*item.global, message.place());
   message.altitude(item.altitude);
   message.hold(item.hold);
-  message.speed(item.place.speed.value_or(0.0));
   message.open(item.open);
   return message;
 }
@@ -93,9 +98,7 @@ Result<MissionItem> from_msg(const swiftlet_msgs::msg::MissionItem& message) {
     return Error{fmt::format("there is no item of kind {}", message.kind())};
   }
   item.kind = static_cast<Kind>(message.kind());
-  item.place.position = from_msg(message.place().position());
-  if (message.place().has_yaw()) item.place.yaw = message.place().yaw();
-  if (message.speed() != 0.0) item.place.speed = message.speed();
+  item.place = waypoint_of(message.place());
   if (message.place().is_global()) {
     item.global = GlobalWaypoint{message.place().latitude(), message.place().longitude(),
                                  message.place().altitude()};
@@ -155,7 +158,8 @@ Result<std::vector<MissionWaypoint>> global_waypoints_of(const swiftlet_msgs::ms
     if (!place.ok()) {
       return Error{fmt::format("gps refused: waypoint {} is {}", number, place.error().reason)};
     }
-    waypoints.push_back({*place});
+    waypoints.push_back(waypoint_of(item));
+    waypoints.back().position = *place;
   }
   return waypoints;
 }

@@ -143,7 +143,8 @@ FlightDirector::State some_state() {
   state.simple = FlightReference::move(Time(5s), {0, 0, 0}, {0, 0, 1}, 0.3, {})->trajectory();
   state.active = plan(Time(6s));
   state.coming = {plan(Time(7s)), plan(Time(8s))};
-  state.waypoints = {{Eigen::Vector3d(1, 2, 1), 0.5}, {Eigen::Vector3d(4, 5, 1), std::nullopt}};
+  state.waypoints = {{Eigen::Vector3d(1, 2, 1), 0.5},
+                     {Eigen::Vector3d(4, 5, 1), std::nullopt, 2.5}};
   state.waypoint = 1;
   state.goal = PlanGoal{Time(5500ms), state.waypoints[1]};
   state.waiting_since = Time(5600ms);
@@ -169,7 +170,9 @@ TEST(StateMessage, CarriesAllThatASuccessorNeeds) {
   EXPECT_EQ(copy.takeoff_point, state.takeoff_point);
   ASSERT_EQ(copy.waypoints.size(), 2u);
   EXPECT_EQ(copy.waypoints[0].yaw, 0.5);
+  EXPECT_EQ(copy.waypoints[0].speed, std::nullopt);
   EXPECT_EQ(copy.waypoints[1].yaw, std::nullopt);
+  EXPECT_EQ(copy.waypoints[1].speed, 2.5);
   EXPECT_EQ(copy.waypoints[1].position, state.waypoints[1].position);
   EXPECT_EQ(copy.goal->waypoint.position, state.goal->waypoint.position);
   EXPECT_EQ(copy.cruise_altitude, 1.5);
