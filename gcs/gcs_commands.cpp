@@ -14,14 +14,14 @@
 
 #include "components/introspection/introspection_commands.hpp"
 #include "components/runtime/command_line.hpp"
-#include "gcs/command_options.hpp"
-#include "gcs/mission_commands.hpp"
-#include "gcs/mission_file_commands.hpp"
-#include "gcs/number_check.hpp"
 #include "gcs/screen/shell/screen_command.hpp"
-#include "gcs/status_view.hpp"
-#include "gcs/stick_client.hpp"
-#include "gcs/verb_end.hpp"
+#include "gcs/sticks/stick_client.hpp"
+#include "gcs/verbs/command_options.hpp"
+#include "gcs/verbs/mission_file_verbs.hpp"
+#include "gcs/verbs/mission_verbs.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/status_view.hpp"
+#include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 
 namespace swiftlet {
@@ -146,8 +146,8 @@ void add_gcs_commands(CLI::App& gcs) {
 
   CLI::App* mission = gcs.add_subcommand("mission", "Missions: files, and what the vehicle has");
   mission->require_subcommand(1);
-  add_mission_file_commands(*mission);
-  add_mission_commands(*mission, network);
+  add_mission_file_verbs(*mission);
+  add_mission_verbs(*mission, network);
   CLI::App* claw = gcs.add_subcommand("claw", "What the vehicle carries");
   claw->require_subcommand(1);
   add_simple(*claw, network, "open", "Let go", command::CLAW_OPEN, "claw ");

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "gcs/mission/mission_list.hpp"
+#include "gcs/mission/mission_text.hpp"
 
 namespace swiftlet {
 namespace {

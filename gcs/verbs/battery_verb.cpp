@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gcs/number_check.hpp"
-#include "gcs/verb_end.hpp"
 #include "gcs/verbs/battery_view.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 
 namespace swiftlet {

@@ -7,9 +7,9 @@
 
 #include "components/runtime/names.hpp"
 #include "estimation/basics/whole_file.hpp"
-#include "gcs/number_check.hpp"
-#include "gcs/verb_end.hpp"
 #include "gcs/verbs/cloud_client.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 #include "perception/cloud_io.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "gcs/command_name.hpp"
+#include "gcs/command/command_name.hpp"
 
 namespace swiftlet {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "gcs/command_options.hpp"
-#include "gcs/mission_exchange.hpp"
+#include "gcs/verbs/command_options.hpp"
+#include "gcs/verbs/mission_exchange.hpp"
 #include "gcs/verbs/verbs.hpp"
 
 namespace swiftlet {

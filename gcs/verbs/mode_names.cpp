@@ -10,7 +10,7 @@
 
 #include "components/runtime/config/nearest_word.hpp"
 #include "control/mode_machine.hpp"
-#include "gcs/command_name.hpp"
+#include "gcs/command/command_name.hpp"
 #include "swiftlet_msgs.h"
 
 namespace swiftlet {

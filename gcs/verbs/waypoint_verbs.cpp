@@ -8,10 +8,10 @@
 
 #include "gcs/mission/degrees.hpp"
 #include "gcs/mission/mission_edit.hpp"
-#include "gcs/mission/mission_list.hpp"
-#include "gcs/mission_exchange.hpp"
-#include "gcs/number_check.hpp"
-#include "gcs/verb_end.hpp"
+#include "gcs/mission/mission_text.hpp"
+#include "gcs/verbs/mission_exchange.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 
 namespace swiftlet {

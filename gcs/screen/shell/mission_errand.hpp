@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gcs/mission/mission_file.hpp"
-#include "gcs/mission_transfer.hpp"
+#include "gcs/transfer/mission_transfer.hpp"
 
 namespace swiftlet::screen {
 

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gcs/screen/shell/screen_component.hpp"
-#include "gcs/stick_client.hpp"
+#include "gcs/sticks/stick_client.hpp"
 
 namespace swiftlet {
 namespace {

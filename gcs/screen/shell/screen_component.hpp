@@ -3,7 +3,7 @@
 #pragma once
 
 #include "components/topics.hpp"
-#include "gcs/command_sender.hpp"
+#include "gcs/command/command_sender.hpp"
 #include "gcs/screen/screen_painter.hpp"
 #include "gcs/screen/shell/curses_terminal.hpp"
 #include "gcs/screen/shell/error_lines.hpp"

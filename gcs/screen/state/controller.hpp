@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "control/steering.hpp"
-#include "gcs/key_sticks.hpp"
 #include "gcs/screen/state/action.hpp"
 #include "gcs/screen/state/circumstances.hpp"
 #include "gcs/screen/state/key_bindings.hpp"
 #include "gcs/screen/state/map_keys.hpp"
 #include "gcs/screen/state/mission_list.hpp"
 #include "gcs/screen/state/parameter_list.hpp"
+#include "gcs/sticks/key_sticks.hpp"
 
 namespace swiftlet::screen {
 

@@ -34,8 +34,8 @@ struct VehicleReport {
 struct MissionReport {
   using State = MissionRunner::State;
   State state = State::kNone;
-  int item = 0;        ///< that is flown or was, from 1; 0 where none is
-  int count = 0;       ///< of items
+  int item = 0;           ///< that is flown or was, from 1; 0 where none is
+  int count = 0;          ///< of items
   std::string reason{};   ///< of kPaused
   std::string id{};       ///< of its upload
   std::string refusal{};  ///< why an upload was refused; "" where none was

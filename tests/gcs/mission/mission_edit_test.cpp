@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gcs/mission/mission_list.hpp"
+#include "gcs/mission/mission_text.hpp"
 #include "tests/gcs/mission/missions.hpp"
 
 namespace swiftlet {

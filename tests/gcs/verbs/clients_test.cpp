@@ -10,9 +10,9 @@
 #include "components/conversions.hpp"
 #include "components/runtime/host.hpp"
 #include "components/static_transforms.hpp"
-#include "gcs/first_message.hpp"
 #include "gcs/verbs/battery_view.hpp"
 #include "gcs/verbs/cloud_client.hpp"
+#include "gcs/verbs/first_message.hpp"
 #include "gcs/verbs/log_client.hpp"
 #include "gcs/verbs/map_client.hpp"
 

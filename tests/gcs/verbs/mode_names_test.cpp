@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "control/mode_machine.hpp"
-#include "gcs/command_name.hpp"
+#include "gcs/command/command_name.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/status_view.hpp"
+#include "gcs/verbs/status_view.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/stick_client.hpp"
+#include "gcs/sticks/stick_client.hpp"
 
 #include <fmt/format.h>
 

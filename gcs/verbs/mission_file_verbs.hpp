@@ -11,6 +11,6 @@ namespace swiftlet {
 /// Adds the verbs for mission files to the command `mission`: validate, convert. They need no
 /// vehicle, and run while the command line is parsed; one that fails throws CLI::RuntimeError with
 /// exit code 1, or 2 where a file cannot be used.
-void add_mission_file_commands(CLI::App& mission);
+void add_mission_file_verbs(CLI::App& mission);
 
 }  // namespace swiftlet

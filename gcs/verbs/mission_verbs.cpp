@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_commands.hpp"
+#include "gcs/verbs/mission_verbs.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "components/topics.hpp"
-#include "gcs/command_options.hpp"
-#include "gcs/first_message.hpp"
+#include "gcs/command/mission_state_name.hpp"
 #include "gcs/mission/mission_file.hpp"
-#include "gcs/mission_exchange.hpp"
-#include "gcs/mission_state_name.hpp"
-#include "gcs/verb_end.hpp"
+#include "gcs/verbs/command_options.hpp"
+#include "gcs/verbs/first_message.hpp"
+#include "gcs/verbs/mission_exchange.hpp"
+#include "gcs/verbs/verb_end.hpp"
 
 namespace swiftlet {
 namespace {
@@ -111,7 +111,7 @@ void add_order(CLI::App& mission, const Network& network, const std::string& nam
 
 }  // namespace
 
-void add_mission_commands(CLI::App& mission, const Network& network) {
+void add_mission_verbs(CLI::App& mission, const Network& network) {
   add_transfers(mission, network);
   const auto json = std::make_shared<bool>(false);
   CLI::App* status =

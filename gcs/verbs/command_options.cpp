@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/command_options.hpp"
+#include "gcs/verbs/command_options.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "gcs/command_client.hpp"
-#include "gcs/command_watch.hpp"
-#include "gcs/number_check.hpp"
+#include "gcs/command/command_client.hpp"
+#include "gcs/command/command_watch.hpp"
+#include "gcs/verbs/number_check.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_file_commands.hpp"
+#include "gcs/verbs/mission_file_verbs.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
-#include "gcs/number_check.hpp"
-#include "gcs/verb_end.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/verb_end.hpp"
 #include "perception/map_io.hpp"
 
 namespace swiftlet {
@@ -183,7 +183,7 @@ void add_convert(CLI::App& mission) {
 
 }  // namespace
 
-void add_mission_file_commands(CLI::App& mission) {
+void add_mission_file_verbs(CLI::App& mission) {
   add_validate(mission);
   add_convert(mission);
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "components/runtime/command_line.hpp"
-#include "gcs/command_sender.hpp"
+#include "gcs/command/command_sender.hpp"
 
 namespace swiftlet {
 

@@ -10,6 +10,6 @@ namespace swiftlet {
 
 /// Adds the verbs for the vehicle's mission to the command `mission`: upload, download, status,
 /// start, pause, clear.
-void add_mission_commands(CLI::App& mission, const std::shared_ptr<NetworkOptions>& network);
+void add_mission_verbs(CLI::App& mission, const std::shared_ptr<NetworkOptions>& network);
 
 }  // namespace swiftlet

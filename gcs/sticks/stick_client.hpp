@@ -7,7 +7,7 @@
 #include "components/terminal/terminal.hpp"
 #include "components/topics.hpp"
 #include "control/steering.hpp"
-#include "gcs/key_sticks.hpp"
+#include "gcs/sticks/key_sticks.hpp"
 
 namespace swiftlet {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/command_client.hpp"
+#include "gcs/command/command_client.hpp"
 
 namespace swiftlet {
 namespace {

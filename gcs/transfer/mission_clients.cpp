@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_clients.hpp"
+#include "gcs/transfer/mission_clients.hpp"
 
 #include <utility>
 

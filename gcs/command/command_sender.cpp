@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/command_sender.hpp"
+#include "gcs/command/command_sender.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

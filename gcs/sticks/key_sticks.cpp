@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/key_sticks.hpp"
+#include "gcs/sticks/key_sticks.hpp"
 
 namespace swiftlet {
 namespace {

@@ -3,7 +3,7 @@
 //
 // Missions over a link that loses, delays, repeats, reorders and goes away, between both ends as
 // they are.
-#include "gcs/mission_transfer.hpp"
+#include "gcs/transfer/mission_transfer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "components/topics.hpp"
-#include "gcs/mission_transfer.hpp"
+#include "gcs/transfer/mission_transfer.hpp"
 
 namespace swiftlet {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_transfer.hpp"
+#include "gcs/transfer/mission_transfer.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gcs/command_sender.hpp"
+#include "gcs/command/command_sender.hpp"
 
 namespace swiftlet {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "gcs/key_sticks.hpp"
+#include "gcs/sticks/key_sticks.hpp"
 
 namespace swiftlet {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "components/terminal/terminal.hpp"
 #include "components/topics.hpp"
-#include "gcs/command_client.hpp"
+#include "gcs/command/command_client.hpp"
 
 namespace swiftlet {
 

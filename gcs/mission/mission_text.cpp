@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission/mission_list.hpp"
+#include "gcs/mission/mission_text.hpp"
 
 #include <fmt/format.h>
 

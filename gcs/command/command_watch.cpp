@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/command_watch.hpp"
+#include "gcs/command/command_watch.hpp"
 
 #include <fmt/format.h>
 
 #include "components/mode_message.hpp"
-#include "gcs/mission_state_name.hpp"
+#include "gcs/command/mission_state_name.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_exchange.hpp"
+#include "gcs/verbs/mission_exchange.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include "components/commander/mission_message.hpp"
 #include "components/terminal/terminal.hpp"
 #include "gcs/mission/mission_check.hpp"
-#include "gcs/mission_clients.hpp"
-#include "gcs/number_check.hpp"
-#include "gcs/verb_end.hpp"
+#include "gcs/transfer/mission_clients.hpp"
+#include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/verb_end.hpp"
 
 namespace swiftlet {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/command_watch.hpp"
+#include "gcs/command/command_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-#include "gcs/mission_file_commands.hpp"
+#include "gcs/verbs/mission_file_verbs.hpp"
 
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ struct Outcome {
 Outcome run(std::vector<std::string> words) {
   CLI::App mission("test");
   mission.require_subcommand(1);
-  add_mission_file_commands(mission);
+  add_mission_file_verbs(mission);
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
   Outcome outcome;
   ::testing::internal::CaptureStdout();
