@@ -28,12 +28,24 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
+/// The innermost verb that was typed, or the program.
+const CLI::App& typed_verb(const CLI::App& app) {
+  const CLI::App* verb = &app;
+  while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
+  return *verb;
+}
+
+/// "swiftlet gcs goto": what stands before its arguments.
+std::string full_name(const CLI::App& verb) {
+  const std::string before = verb.get_parent() ? full_name(*verb.get_parent()) + " " : "";
+  return before + verb.get_name();
+}
+
 /// CLI11 only says that an argument was not expected; a person wants to know which verbs there are.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App* group = &app;
-  while (!group->get_subcommands().empty()) group = group->get_subcommands().front();
   std::vector<std::string> names;
-  for (const CLI::App* verb : group->get_subcommands([](const CLI::App*) { return true; })) {
+  for (const CLI::App* verb :
+       typed_verb(app).get_subcommands([](const CLI::App*) { return true; })) {
     names.push_back(verb->get_name());
   }
   const std::vector<std::string> rest = app.remaining(true);
@@ -102,7 +114,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::RuntimeError& result) {
     return result.get_exit_code();  // the verb has said why
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "swiftlet: %s\nTry: swiftlet --help\n", explain(app, error).c_str());
+    std::fprintf(stderr, "swiftlet: %s\nTry: %s --help\n", explain(app, error).c_str(),
+                 full_name(typed_verb(app)).c_str());
     return kWrongUsage;
   } catch (const swiftlet::ConfigError& error) {
     std::fprintf(stderr, "swiftlet: %s\n", error.what());

@@ -30,7 +30,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"BagNone", {"bag"}, {"--help"}},
         BadInput{"BagUnknown", {"bag", "inof"}, {"unknown verb 'inof'", "did you mean 'info'?"}},
         BadInput{"GcsNone", {"gcs"}, {"--help"}},
-        BadInput{"GcsUnknown", {"gcs", "armm"}, {"unknown verb 'armm'", "did you mean 'arm'?"}},
+        BadInput{"GcsUnknown",
+                 {"gcs", "armm"},
+                 {"unknown verb 'armm'", "did you mean 'arm'?", "Try: swiftlet gcs --help"}},
         BadInput{"ComponentNone", {"component"}, {"--help"}},
         BadInput{"ConvertUnknown", {"bag", "convert", "ros"}, {"unknown verb 'ros'", "carmen"}}),
     name_of);
@@ -50,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
     Option, BadUsage,
     testing::Values(
         BadInput{"LogLevel", {"--log", "noisy", "component", "list"}, {"--log", "debug"}},
-        BadInput{"Unknown", {"fly", hop(), "--sede", "3"}, {"--sede", "--help"}},
+        BadInput{"Unknown", {"fly", hop(), "--sede", "3"}, {"--sede", "Try: swiftlet fly --help"}},
         BadInput{"SeedNegative", {"fly", hop(), "--seed", "-1"}, {"--seed", "-1"}},
         BadInput{"SeedThatIsText", {"fly", hop(), "--seed", "abc"}, {"--seed", "abc"}},
         BadInput{"SeedTooLarge", {"fly", hop(), "--seed", "99999999999"}, {"--seed"}},
