@@ -12,6 +12,7 @@ class CommandClient : public Component {
   CommandClient(const ComponentContext& context, const GroundCommand& command, Duration patience);
 
   const CommandOutcome& outcome() const { return outcome_; }
+  const std::string& command_id() const { return sender_.id(); }
 
  private:
   CommandSender sender_;

@@ -57,6 +57,8 @@ class CommandSender {
   bool busy() const { return command_.has_value(); }
   /// What is under way; only where it is busy.
   const std::string& name() const { return command_->name; }
+  /// Of the command that is under way, or was last: a mission has it on the vehicle, too.
+  const std::string& id() const { return id_; }
 
   void hear(const swiftlet_msgs::msg::CommandAck& ack);
   void hear(const nav_msgs::msg::Odometry& odometry);

@@ -44,6 +44,10 @@ std::optional<CommandOutcome> CommandWatch::hear(
     if (goes_on) return std::nullopt;
     return failed(fmt::format("{}: {}", mode_name(status.mode()), status.reason()));
   };
+  if (command_.is_mission() && status.mission_id() != id_) {
+    return failed(fmt::format("the vehicle was sent elsewhere: {}: {}", mode_name(status.mode()),
+                              status.reason()));
+  }
   if (command_.is_mission() || command_.command == command::EXPLORE) {
     const std::uint8_t by = command_.command == command::EXPLORE && !command_.is_mission()
                                 ? mode::INDOOR_EXPLORATION
@@ -102,8 +106,8 @@ std::optional<CommandOutcome> CommandWatch::hear(const swiftlet_msgs::msg::ClawS
 }
 
 WaitClient::WaitClient(const ComponentContext& context, const GroundCommand& command,
-                       Terminal& terminal)
-    : Component(context), watch_(command), terminal_(terminal), heard_(now()) {
+                       const std::string& id, Terminal& terminal)
+    : Component(context), watch_(command, id), terminal_(terminal), heard_(now()) {
   const bool about_mission = !command.is_mission() && is_about_mission(command.command);
   const bool about_claw = !command.is_mission() && is_about_claw(command.command);
   const bool about_mode = !about_mission && !about_claw;

@@ -16,7 +16,8 @@ namespace swiftlet {
 /// otherwise has failed, with the vehicle's reason.
 class CommandWatch {
  public:
-  explicit CommandWatch(const GroundCommand& command) : command_(command) {}
+  /// `id` is what a CommandSender sent it with.
+  CommandWatch(const GroundCommand& command, const std::string& id) : command_(command), id_(id) {}
 
   /// Of statuses that were sent after the command was accepted. Nothing while it is under way.
   std::optional<CommandOutcome> hear(const swiftlet_msgs::msg::VehicleStatus& status) const;
@@ -30,13 +31,15 @@ class CommandWatch {
   CommandOutcome failed(const std::string& reason) const;
 
   GroundCommand command_;
+  std::string id_;
 };
 
 /// Listens until what was commanded is done (0) or has failed (1), and says how far it is. A
 /// vehicle that is not heard for ten seconds is lost: 1.
 class WaitClient : public Component {
  public:
-  WaitClient(const ComponentContext& context, const GroundCommand& command, Terminal& terminal);
+  WaitClient(const ComponentContext& context, const GroundCommand& command, const std::string& id,
+             Terminal& terminal);
   const CommandOutcome& outcome() const { return outcome_; }
 
  private:

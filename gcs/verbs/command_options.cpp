@@ -16,17 +16,19 @@ namespace swiftlet {
 namespace {
 
 CommandOutcome until_accepted(const NetworkOptions& network, const GroundCommand& command,
-                              Duration patience) {
+                              Duration patience, std::string& id) {
   Host host(network.host_options("gcs"));
   const auto& client = host.emplace<CommandClient>("gcs", command, patience);
   host.run();
+  id = client.command_id();
   return client.outcome();
 }
 
-CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& command) {
+CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& command,
+                          const std::string& id) {
   Terminal terminal;
   Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<WaitClient>("gcs", command, terminal);
+  const auto& client = host.emplace<WaitClient>("gcs", command, id, terminal);
   host.run();
   terminal.clear();
   return client.outcome();
@@ -47,9 +49,10 @@ void CommandOptions::add_to(CLI::App& verb) {
 }
 
 void CommandOptions::send(const NetworkOptions& network, const GroundCommand& command) const {
-  CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_));
+  std::string id;
+  CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_), id);
   const bool accepted = outcome.accepted;
-  if (accepted && wait_) outcome = until_done(network, command);
+  if (accepted && wait_) outcome = until_done(network, command, id);
   if (outcome.text.empty()) outcome.text = command.name + ": interrupted";
   if (json_) {
     const nlohmann::json json = {{"command", command.name},

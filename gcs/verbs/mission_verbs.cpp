@@ -55,9 +55,8 @@ void show_state(const NetworkOptions& network, bool as_json) {
                          host.domain()));
   }
   const auto& state = *client.message();
-  const std::string name = mission_state_name(state.state());
   if (as_json) {
-    const nlohmann::json json = {{"state", name},
+    const nlohmann::json json = {{"state", mission_state_name(state.state())},
                                  {"id", state.id()},
                                  {"items", state.count()},
                                  {"item", state.item()},
@@ -65,11 +64,7 @@ void show_state(const NetworkOptions& network, bool as_json) {
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("mission   {}", name);
-  if (state.count() > 0) fmt::print(", {} items", state.count());
-  if (state.item() > 0) fmt::print(", at item {}", state.item());
-  fmt::print("\n");
-  if (!state.reason().empty()) fmt::print("reason    {}\n", state.reason());
+  fmt::print("mission   {}\n", mission_state_text(state));
 }
 
 void add_transfers(CLI::App& mission, const Network& network) {

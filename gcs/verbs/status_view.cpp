@@ -12,6 +12,7 @@
 #include "components/conversions.hpp"
 #include "components/mode_message.hpp"
 #include "estimation/geometry/so3.hpp"
+#include "gcs/command/mission_state_name.hpp"
 
 namespace swiftlet {
 namespace {
@@ -23,7 +24,7 @@ constexpr Duration kMoment = 1s;
 /// What is not heard for so long is not true any more.
 constexpr Duration kStale = 1s;
 
-std::string mission_text(const swiftlet_msgs::msg::VehicleStatus& status) {
+std::string flight_text(const swiftlet_msgs::msg::VehicleStatus& status) {
   if (status.waypoint_count() == 0) return "none";
   if (status.mission_done()) return fmt::format("{} waypoints, done", status.waypoint_count());
   return fmt::format("waypoint {} of {}", status.waypoint(), status.waypoint_count());
@@ -47,6 +48,13 @@ nlohmann::json json_of(const VehicleView& view) {
                        {"waypoint_count", status.waypoint_count()},
                        {"done", status.mission_done()}};
   }
+  if (view.mission) {
+    json["uploaded_mission"] = {{"id", view.mission->id()},
+                                {"state", mission_state_name(view.mission->state())},
+                                {"item", view.mission->item()},
+                                {"count", view.mission->count()},
+                                {"reason", view.mission->reason()}};
+  }
   if (view.odometry) {
     const RigidBodyState state = from_msg(*view.odometry);
     json["position_m"] = {state.p_WB.x(), state.p_WB.y(), state.p_WB.z()};
@@ -58,6 +66,10 @@ nlohmann::json json_of(const VehicleView& view) {
                        {"voltage_v", view.battery->voltage()}};
   }
   return json;
+}
+
+bool is_complete(const VehicleView& view) {
+  return view.status && view.mission && view.odometry && view.battery;
 }
 
 /// Components write what they want into their reasons.
@@ -74,8 +86,9 @@ std::string describe(const VehicleView& view) {
     text += fmt::format("ready     {}\n", status.ready() ? "yes" : "no");
     if (!status.reason().empty()) text += fmt::format("reason    {}\n", status.reason());
     text += fmt::format("height    {:.2f} m above take-off\n", status.height());
-    text += fmt::format("mission   {}\n", mission_text(status));
+    text += fmt::format("flight    {}\n", flight_text(status));
   }
+  if (view.mission) text += fmt::format("mission   {}\n", mission_state_text(*view.mission));
   if (view.odometry) {
     const RigidBodyState state = from_msg(*view.odometry);
     text += fmt::format("position  {:.2f} {:.2f} {:.2f} m, heading {:.0f} deg\n", state.p_WB.x(),
@@ -96,7 +109,7 @@ std::string one_line(const VehicleView& view) {
   std::string text;
   if (view.status) {
     text += fmt::format("{:18}", mode_name(view.status->mode()));
-    if (view.status->waypoint_count() > 0) text += mission_text(*view.status) + "  ";
+    if (view.status->waypoint_count() > 0) text += flight_text(*view.status) + "  ";
   } else {
     text += "no vehicle/status  ";
   }
@@ -137,6 +150,8 @@ StatusClient::StatusClient(const ComponentContext& context, Duration patience, L
             [this](const nav_msgs::msg::Odometry& odometry) { view_.odometry = odometry; });
   subscribe(topic::battery,
             [this](const sensor_msgs::msg::BatteryState& battery) { view_.battery = battery; });
+  subscribe(topic::mission_state,
+            [this](const swiftlet_msgs::msg::MissionState& mission) { view_.mission = mission; });
   every(each_second != nullptr ? Duration(1s) : Duration(20ms), [this](Time now) { advance(now); });
 }
 
@@ -145,7 +160,7 @@ void StatusClient::advance(Time now) {
     if (now - status_heard_ > kStale) view_ = {};
     fmt::print("{}\n", each_second_(view_));
     std::fflush(stdout);
-  } else if ((view_.status && view_.odometry && view_.battery) || now > deadline_) {
+  } else if (is_complete(view_) || now > deadline_) {
     stop(view_.status ? 0 : 1);
   }
 }

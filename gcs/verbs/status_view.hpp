@@ -12,6 +12,7 @@ namespace swiftlet {
 /// What is known of the vehicle right now.
 struct VehicleView {
   std::optional<swiftlet_msgs::msg::VehicleStatus> status;
+  std::optional<swiftlet_msgs::msg::MissionState> mission;  // that was uploaded
   std::optional<nav_msgs::msg::Odometry> odometry;
   std::optional<sensor_msgs::msg::BatteryState> battery;
 };
@@ -23,7 +24,7 @@ std::string to_json(const VehicleView& view);
 std::string to_json_line(const VehicleView& view);
 
 /// Listens to the vehicle until its status was heard, at most for `patience`, and then for a moment
-/// for odometry and battery; then it ends the run.
+/// for the rest; then it ends the run.
 class StatusClient : public Component {
  public:
   static constexpr Duration kPatience = std::chrono::milliseconds(1500);

@@ -76,6 +76,8 @@ TEST_F(MissionFlight, UploadedStartedPausedGoneOnWithAndReadBack) {
   says("paused", {"mission", "pause", "--wait"});
   EXPECT_EQ(status()["mode"], "Hover");
   EXPECT_EQ(mission_status()["state"], "paused");
+  EXPECT_EQ(status()["uploaded_mission"]["state"], "paused");
+  says("mission   paused, 5 items, at item 3: mission paused", {"status"});
 
   // To its end, with an exit code that a script can use.
   const Finished flown = run({"gcs", "mission", "start", "--wait", "--json"}, Seconds(120.0));

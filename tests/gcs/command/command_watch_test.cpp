@@ -14,6 +14,8 @@ namespace mode = swiftlet_msgs::msg::VehicleStatus_Constants;
 namespace mission = swiftlet_msgs::msg::MissionState_Constants;
 namespace claw = swiftlet_msgs::msg::ClawState_Constants;
 
+const std::string kId = "this command";
+
 GroundCommand of(std::uint8_t what) {
   GroundCommand command;
   command.name = "it";
@@ -30,6 +32,7 @@ swiftlet_msgs::msg::VehicleStatus in(std::uint8_t where, bool mission_done = fal
                                      const std::string& reason = "a reason") {
   swiftlet_msgs::msg::VehicleStatus status;
   status.mode(where);
+  status.mission_id(kId);
   status.mission_done(mission_done);
   status.reason(reason);
   status.armed(where != mode::GROUNDED);
@@ -39,7 +42,7 @@ swiftlet_msgs::msg::VehicleStatus in(std::uint8_t where, bool mission_done = fal
 /// "done", "failed" or "goes on".
 template <class Message>
 std::string after(const GroundCommand& command, const Message& message) {
-  const auto outcome = CommandWatch(command).hear(message);
+  const auto outcome = CommandWatch(command, kId).hear(message);
   if (!outcome) return "goes on";
   EXPECT_THAT(outcome->text, HasSubstr(command.name + ": "));
   return outcome->accepted ? "done" : "failed";
@@ -58,7 +61,8 @@ TEST(CommandWatch, AFlightToAPlaceIsDoneWhenItIsThere) {
   EXPECT_EQ(after(go_to(), in(mode::HOVER, false)), "failed");
   EXPECT_EQ(after(go_to(), in(mode::MANUAL)), "failed");
   EXPECT_EQ(after(go_to(), in(mode::GPS_GUIDANCE)), "failed") << "somebody flies elsewhere";
-  const auto outcome = CommandWatch(go_to()).hear(in(mode::HOVER, false, "no path to waypoint 1"));
+  const auto outcome =
+      CommandWatch(go_to(), kId).hear(in(mode::HOVER, false, "no path to waypoint 1"));
   EXPECT_EQ(outcome->text, "goto: Hover: no path to waypoint 1");
   GroundCommand gps;
   gps.name = "gps";
@@ -68,6 +72,18 @@ TEST(CommandWatch, AFlightToAPlaceIsDoneWhenItIsThere) {
   EXPECT_EQ(after(of(code::EXPLORE), in(mode::INDOOR_EXPLORATION)), "goes on");
   EXPECT_EQ(after(of(code::EXPLORE), in(mode::HOVER, true)), "done");
   EXPECT_EQ(after(of(code::EXPLORE), in(mode::HOVER)), "failed");
+}
+
+TEST(CommandWatch, AFlightThatAnotherTookThePlaceOfHasFailed) {
+  auto status = in(mode::INDOOR_NAVIGATION);
+  status.mission_id("of another ground station");
+  const auto outcome = CommandWatch(go_to(), kId).hear(status);
+  ASSERT_TRUE(outcome.has_value());
+  EXPECT_FALSE(outcome->accepted);
+  EXPECT_THAT(outcome->text, HasSubstr("sent elsewhere"));
+  auto there = in(mode::HOVER, true);
+  there.mission_id("of another ground station");
+  EXPECT_EQ(after(go_to(), there), "failed") << "it is there, but where?";
 }
 
 TEST(CommandWatch, ALandingIsDoneOnTheGround) {
@@ -101,7 +117,7 @@ TEST(CommandWatch, AMissionIsDoneWithItsLastItem) {
   state.count(5);
   state.reason("hover requested");
   EXPECT_EQ(after(of(code::MISSION_START), state), "failed");
-  EXPECT_EQ(CommandWatch(of(code::MISSION_START)).hear(state)->text,
+  EXPECT_EQ(CommandWatch(of(code::MISSION_START), kId).hear(state)->text,
             "it: paused at item 3 of 5: hover requested");
   state.state(mission::NONE);
   EXPECT_EQ(after(of(code::MISSION_START), state), "failed");
