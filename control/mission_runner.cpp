@@ -101,7 +101,7 @@ Result<Acceptance> MissionRunner::pause(FlightDirector& director, Time now) {
   }
   const Result<Acceptance> stopped = director.request(Request::hover(), now);
   if (!stopped.ok()) return stopped;
-  interrupt("paused");
+  interrupt("pause requested");
   return Acceptance::kChanged;
 }
 

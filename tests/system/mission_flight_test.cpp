@@ -77,7 +77,7 @@ TEST_F(MissionFlight, UploadedStartedPausedGoneOnWithAndReadBack) {
   EXPECT_EQ(status()["mode"], "Hover");
   EXPECT_EQ(mission_status()["state"], "paused");
   EXPECT_EQ(status()["uploaded_mission"]["state"], "paused");
-  says("mission   paused, 5 items, at item 3: mission paused", {"status"});
+  says("mission   paused, 5 items, at item 3: pause requested", {"status"});
 
   // To its end, with an exit code that a script can use.
   const Finished flown = run({"gcs", "mission", "start", "--wait", "--json"}, Seconds(120.0));

@@ -36,8 +36,7 @@ constexpr Threshold kBatteryThresholds[] = {
 
 std::string describe_pause(const MissionReport& report) {
   const std::string where = fmt::format("mission paused at item {}", report.item);
-  // That it is paused is no reason.
-  return report.reason.empty() || report.reason == "paused" ? where : where + ": " + report.reason;
+  return report.reason.empty() ? where : where + ": " + report.reason;
 }
 
 void GroundStationModel::hear(const VehicleReport& report, Time now) {
