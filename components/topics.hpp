@@ -66,6 +66,7 @@ inline constexpr Topic<swiftlet_msgs::msg::MissionPart> mission_download{"missio
                                                                          qos::sensor};
 inline constexpr Topic<swiftlet_msgs::msg::MissionState> mission_state{"mission/state", qos::state,
                                                                        500ms};
+inline constexpr Topic<swiftlet_msgs::msg::FlightLimits> vehicle_limits{"vehicle/limits", qos::map};
 /// All of it, for a standby.
 inline constexpr Topic<swiftlet_msgs::msg::MissionPart> commander_mission{"commander/mission",
                                                                           qos::map};
@@ -130,6 +131,7 @@ inline constexpr const char* names[] = {clock.name,
                                         mission_fetch.name,
                                         mission_download.name,
                                         mission_state.name,
+                                        vehicle_limits.name,
                                         commander_mission.name,
                                         vehicle_status.name,
                                         goal.name,

@@ -7,6 +7,7 @@
 
 #include "components/commander/attendance.hpp"
 #include "components/commander/director_params.hpp"
+#include "components/commander/limits_message.hpp"
 #include "components/commander/mission_desk.hpp"
 #include "components/commander/mission_message.hpp"
 #include "components/commander/request_message.hpp"
@@ -33,6 +34,7 @@ constexpr int kGoalEvery = 10;     // ticks
 constexpr int kStatusEvery = 10;   // ticks
 constexpr int kMissionEvery = 50;  // ticks
 constexpr int kClawEvery = 20;     // ticks
+constexpr int kLimitsEvery = 100;  // ticks
 /// What a person steers is told to a standby that often [ticks].
 constexpr int kSteeredEvery = 10;
 /// Commands that were answered, kept so that one that comes again is not carried out again.
@@ -58,7 +60,8 @@ class Commander : public Component {
       : Component(context),
         params_(read_director_params(parameters())),
         director_(params_),
-        desk_({params_.gps_altitude}) {
+        desk_(runner_params(params_)),
+        limits_message_(make_limits(parameters(), params_, runner_params(params_))) {
     setpoint_ = advertise(topic::setpoint);
     goal_ = advertise(topic::goal);
     status_ = advertise(topic::vehicle_status);
@@ -68,6 +71,7 @@ class Commander : public Component {
     mission_download_ = advertise(topic::mission_download);
     mission_ = advertise(topic::commander_mission);
     claw_ = advertise(topic::claw_command);
+    limits_ = advertise(topic::vehicle_limits);
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
       const auto& covariance = odometry.pose().covariance();
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
@@ -183,6 +187,12 @@ class Commander : public Component {
   }
 
  private:
+  static MissionRunner::Params runner_params(const FlightDirector::Params& params) {
+    MissionRunner::Params runner;
+    runner.gps_altitude = params.gps_altitude;
+    return runner;
+  }
+
   void look_around() {
     if (auto seen = surroundings_.take()) {
       director_.set_obstacles(std::move(seen->obstacles), seen->time);
@@ -300,6 +310,10 @@ class Commander : public Component {
       command.open(*desk_.claw_open());
       claw_.publish(command);
     }
+    if (ticks_ % kLimitsEvery == 0) {
+      limits_message_.header(make_header(now, frame::kMap));
+      limits_.publish(limits_message_);
+    }
     if (ticks_ % kStatusEvery != 0) return;
     const swiftlet_msgs::msg::MissionState state = desk_.state(now);
     const bool changed = differs(state, told_);
@@ -374,6 +388,7 @@ class Commander : public Component {
   FlightDirector::State shared_;  // as the standby knows it
   bool restored_ = false;
   MissionDesk desk_;
+  swiftlet_msgs::msg::FlightLimits limits_message_;
   swiftlet_msgs::msg::MissionState told_;  // what ground stations were told last
   PlanAnswer last_plan_;
   Surroundings surroundings_;
@@ -393,6 +408,7 @@ class Commander : public Component {
   Publisher<swiftlet_msgs::msg::MissionPart> mission_download_;
   Publisher<swiftlet_msgs::msg::MissionPart> mission_;
   Publisher<swiftlet_msgs::msg::ClawCommand> claw_;
+  Publisher<swiftlet_msgs::msg::FlightLimits> limits_;
 };
 
 const RegisterComponent<Commander> kRegistered{"commander",

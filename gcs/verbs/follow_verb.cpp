@@ -22,7 +22,8 @@ struct Options {
 };
 
 void follow(const NetworkOptions& network, const Options& options) {
-  MissionInbox::Items items = flyable_items(mission_of_file(options.file), options.file);
+  MissionInbox::Items items =
+      flyable_items(network, mission_of_file(options.file), options.file, MissionBegin::kNow);
   send_mission(network, std::move(items), std::max(kTransferPatience, options.command.patience()));
   GroundCommand start;
   start.name = "follow";

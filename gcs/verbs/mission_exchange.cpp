@@ -3,6 +3,7 @@
 #include "gcs/verbs/mission_exchange.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/transfer/mission_clients.hpp"
 #include "gcs/verbs/number_check.hpp"
+#include "gcs/verbs/outlook_client.hpp"
 #include "gcs/verbs/verb_end.hpp"
 
 namespace swiftlet {
@@ -51,12 +53,23 @@ MissionFile mission_of_file(const std::string& file) {
   return std::move(*mission);
 }
 
-MissionInbox::Items flyable_items(const MissionFile& mission, const std::string& name) {
-  MissionCheckParams params;
-  params.on_ground = false;  // that is not known here; the vehicle refuses what it cannot fly
+MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFile& mission,
+                                  const std::string& name, MissionBegin begin) {
+  Host host(network.host_options("gcs"));
+  const auto& client = host.emplace<OutlookClient>("gcs");
+  host.run();
+  const screen::Circumstances circumstances = client.circumstances();
+  MissionCheckParams params = circumstances.check;
+  if (begin == MissionBegin::kLater) params.on_ground = false;  // who knows what comes before
+  const OccupancyGrid map = circumstances.map ? known_map(*circumstances.map) : OccupancyGrid();
+  params.map = &map;
   const MissionCheck check = check_mission(mission, params);
   for (const MissionFinding& finding : check.findings) {
     fmt::print(stderr, "{}\n", describe(finding, name));
+  }
+  if (const auto unknown = client.unknown(); !unknown.empty()) {
+    fmt::print(stderr, "{}: note: not known of the vehicle, and not checked: {}\n", name,
+               fmt::join(unknown, ", "));
   }
   if (check.has_errors()) end_verb(kExitUnusable, "the mission was not sent");
   MissionInbox::Items items;

@@ -18,9 +18,14 @@ void add_patience(CLI::App& verb, double& patience_s);
 /// The mission of a file; remarks go to the error stream.
 MissionFile mission_of_file(const std::string& file);
 
-/// Its items, where it can be flown, wherever the vehicle is; what was found goes to the error
-/// stream, by `name`. Exit code 2 where it has errors.
-MissionInbox::Items flyable_items(const MissionFile& mission, const std::string& name);
+/// Whether a mission is flown at once, so that it has to begin where the vehicle is, or later.
+enum class MissionBegin { kNow, kLater };
+
+/// Its items, where the vehicle can fly it by all that it says of itself and of the place; what was
+/// found, and what could not be checked, goes to the error stream, by `name`. Exit code 2 where it
+/// has errors.
+MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFile& mission,
+                                  const std::string& name, MissionBegin begin);
 
 /// Brings items to the vehicle in place of those that it has, and reads them back. Exit code 1
 /// where it refuses them or they do not get there.

@@ -65,7 +65,8 @@ void edit(const NetworkOptions& network, const Options& options, Edit change) {
   }
   MissionFile mission;
   for (MissionItem& item : items) mission.items.push_back({std::move(item), 0});
-  send_mission(network, flyable_items(mission, "the mission"), options.patience);
+  send_mission(network, flyable_items(network, mission, "the mission", MissionBegin::kLater),
+               options.patience);
   print(mission, options.json);
 }
 

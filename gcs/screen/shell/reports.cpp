@@ -123,6 +123,18 @@ MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission) {
   return report;
 }
 
+LimitsReport report_of(const swiftlet_msgs::msg::FlightLimits& limits) {
+  return {{limits.fence_radius(), limits.fence_height()},
+          limits.gps_altitude(),
+          limits.gps_speed(),
+          limits.climb_speed(),
+          limits.descent_speed(),
+          limits.radius(),
+          limits.low_battery(),
+          limits.endurance(),
+          limits.most_items()};
+}
+
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw) {
   return report_of_claw(claw.state(), claw.reason());
 }

@@ -12,6 +12,7 @@ namespace swiftlet::screen {
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
 MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission);
+LimitsReport report_of(const swiftlet_msgs::msg::FlightLimits& limits);
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw);
 TelemetryReport report_of(const swiftlet_msgs::msg::Telemetry& telemetry);
 /// Nothing where it is not that of a ground link.

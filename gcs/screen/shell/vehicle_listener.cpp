@@ -15,6 +15,12 @@ VehicleListener::VehicleListener(const ComponentContext& context) : Component(co
     model_.hear(report_of(state), now());
     heard(state);
   });
+  subscribe(
+      topic::vehicle_limits,
+      [this](const swiftlet_msgs::msg::FlightLimits& limits) {
+        model_.hear(report_of(limits), now());
+      },
+      Need::kOptional);
   subscribe(topic::battery, [this](const sensor_msgs::msg::BatteryState& battery) {
     model_.hear(from_msg(battery), now());
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,13 @@ struct Circumstances {
   bool mission_flies = false;                ///< that the vehicle has
   std::optional<Eigen::Vector3d> vehicle{};  ///< in the map [m]
   std::vector<std::string> components{};     ///< that have parameters
-  MissionCheckParams check{};                ///< of a mission that is to be flown now
+  MissionCheckParams check{};                ///< of a mission that is to be flown now; without map
+  std::shared_ptr<const GridMap> map{};      ///< null while none is known
 };
 
 Circumstances circumstances_of(const GroundStationModel& model, Time now);
+
+/// A map as obstacles are looked for in it; that takes tens of milliseconds for a large one.
+OccupancyGrid known_map(const GridMap& map);
 
 }  // namespace swiftlet::screen

@@ -44,6 +44,7 @@ class GroundStationModel {
   void hear(const MissionReport& report, Time now);
   void hear(const ClawReport& report, Time now);
   void hear(const GuardReport& report, Time now);
+  void hear(const LimitsReport& report, Time now) { limits_.hear(report, now); }
   void hear(const LinkReport& report, Time now);
   /// What is heard of it first-hand wins.
   void hear(const TelemetryReport& report, Time now);
@@ -68,6 +69,7 @@ class GroundStationModel {
     return mission_.known() && mission_->state == MissionReport::State::kFlying;
   }
   const Heard<ClawReport>& claw() const { return claw_; }
+  const Heard<LimitsReport>& limits() const { return limits_; }
   const Heard<GuardReport>& guard() const { return guard_; }
   const Heard<LinkReport>& link() const { return link_; }
   const Heard<TelemetryReport>& telemetry() const { return telemetry_; }
@@ -109,6 +111,7 @@ class GroundStationModel {
   OriginEstimate origin_;
   Heard<MissionReport> mission_{kMissionStale};
   Time mission_flew_{};  // last
+  Heard<LimitsReport> limits_;
   Heard<ClawReport> claw_;
   Heard<GuardReport> guard_;
   Heard<LinkReport> link_{kBatteryStale};

@@ -45,6 +45,19 @@ struct MissionReport {
 /// "mission paused at item 3: manual control".
 std::string describe_pause(const MissionReport& report);
 
+/// What flights are held to. 0: there is none, or it is not known.
+struct LimitsReport {
+  Geofence fence;
+  double gps_altitude = 0.0;   ///< of waypoints on Earth that have none [m]
+  double gps_speed = 0.0;      ///< the greatest in GPS Guidance [m/s]
+  double climb_speed = 0.0;    ///< [m/s]
+  double descent_speed = 0.0;  ///< of a landing [m/s]
+  double radius = 0.0;         ///< of the vehicle [m]
+  double low_battery = 0.0;    ///< charge at which a flight is ended [0..1]
+  double endurance = 0.0;      ///< of a full battery in the air [s]
+  std::size_t most_items = 0;  ///< of a mission
+};
+
 /// What the vehicle carries with.
 struct ClawReport {
   std::string state;  ///< in a word

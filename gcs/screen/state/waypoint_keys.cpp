@@ -89,7 +89,10 @@ void Controller::edit_items(Deed deed, const Circumstances& circumstances) {
 /// What cannot be flown is not sent, and stays to be put right.
 std::vector<Action> Controller::start(const Circumstances& circumstances) {
   if (waypoints_.empty()) return {};
-  const MissionCheck check = check_mission(waypoints_.mission(), circumstances.check);
+  MissionCheckParams params = circumstances.check;
+  const OccupancyGrid map = circumstances.map ? known_map(*circumstances.map) : OccupancyGrid();
+  params.map = &map;
+  const MissionCheck check = check_mission(waypoints_.mission(), params);
   Actions actions;
   const MissionFinding* first = nullptr;
   for (const MissionFinding& finding : check.findings) {

@@ -178,6 +178,22 @@ TEST_F(ControllerTest, WhatCannotBeFlownIsNotSentAndTheItemIsShown) {
   EXPECT_THAT(last.text, testing::HasSubstr("begin with a take-off"));
 }
 
+TEST_F(ControllerTest, WhatIsInsideAnObstacleOfTheMapIsNotSent) {
+  auto map = std::make_shared<GridMap>();
+  map->width = map->height = 80;
+  map->resolution = 0.05;
+  map->cells.assign(80 * 80, 0);
+  circumstances.map = map;
+  press("wa");
+  const Eigen::Vector2d place = controller.waypoints().items()[0].item.place.position.head<2>();
+  EXPECT_THAT(press("s"), testing::Contains(Kind::kFlyMission)) << "all is free";
+  const Eigen::Vector2i cell = (place / 0.05).cast<int>();
+  map->cells[static_cast<std::size_t>(80 * cell.y() + cell.x())] = 100;
+  press("w");
+  EXPECT_THAT(press("s"), Not(testing::Contains(Kind::kFlyMission)));
+  EXPECT_THAT(last.text, testing::HasSubstr("is inside an obstacle"));
+}
+
 TEST_F(ControllerTest, SpacePausesAMissionThatFliesAndGoingOnIsOneKey) {
   for (const char* keyboard : {"", "g", "w"}) {
     press(keyboard);

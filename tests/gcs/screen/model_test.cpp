@@ -278,6 +278,30 @@ TEST(Circumstances, AreWhatAMissionIsCheckedBy) {
   EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 1.0);
 }
 
+TEST(Circumstances, HaveTheLimitsThatTheVehicleTellsOf) {
+  GroundStationModel model;
+  const MissionCheckParams before = circumstances_of(model, kBegin).check;
+  EXPECT_FALSE(before.most_speed || before.endurance) << "not known, not checked";
+  model.hear(LimitsReport{{20.0, 5.0}, 10.0, 2.0, 0.5, 0.3, 0.4, 0.25, 600.0, 50}, kBegin);
+  model.hear(BatteryReport{0.8, 15.0, 1.0, 2.0}, kBegin);
+  const MissionCheckParams check = circumstances_of(model, kBegin).check;
+  EXPECT_EQ(check.fence.radius, 20.0);
+  EXPECT_EQ(check.fence.height, 5.0);
+  EXPECT_EQ(check.gps_altitude, 10.0);
+  EXPECT_EQ(check.gps_speed, 2.0);
+  EXPECT_EQ(check.most_speed, 2.0);
+  EXPECT_EQ(check.climb_speed, 0.5);
+  EXPECT_EQ(check.descent_speed, 0.3);
+  EXPECT_EQ(check.clearance, 0.4);
+  EXPECT_EQ(check.reserve, 0.25);
+  EXPECT_EQ(check.endurance, 600.0);
+  EXPECT_EQ(check.charge, 0.8);
+  EXPECT_EQ(check.most_items, 50u);
+  model.hear(LimitsReport{}, kBegin);
+  EXPECT_EQ(circumstances_of(model, kBegin).check.gps_speed, before.gps_speed) << "not told";
+  EXPECT_FALSE(circumstances_of(model, kBegin).check.endurance);
+}
+
 TelemetryReport telemetry(const std::string& mode, double x) {
   TelemetryReport telemetry;
   telemetry.vehicle = report(mode);

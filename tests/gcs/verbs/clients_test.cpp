@@ -15,6 +15,7 @@
 #include "gcs/verbs/first_message.hpp"
 #include "gcs/verbs/log_client.hpp"
 #include "gcs/verbs/map_client.hpp"
+#include "gcs/verbs/outlook_client.hpp"
 
 namespace swiftlet {
 namespace {
@@ -169,6 +170,45 @@ TEST(MapClient, TakesAMapThatWasSaidOnceBeforeItCame) {
   const Trial<MapClient> none(nobody, Duration(5s), false);
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_GE(none.took, 5s);
+}
+
+/// All that an OutlookClient waits for, but for the map.
+void say_outlook(Puppet& self) {
+  self.say(topic::vehicle_status, 100ms, [](Time) { return status(mode::GROUNDED); });
+  self.say(topic::odometry, 10ms, [](Time now) { return odometry(now, {3.0, 4.0, 0.1}); });
+  self.say(topic::battery, 1s, [](Time) { return battery(10.0, 2.0); });
+  self.say(topic::vehicle_limits, 1s, [](Time) {
+    swiftlet_msgs::msg::FlightLimits limits;
+    limits.fence_radius(20.0);
+    limits.gps_speed(2.5);
+    return limits;
+  });
+}
+
+TEST(OutlookClient, EndsWhenAllIsKnown) {
+  const Trial<OutlookClient> run([](Puppet& self) {
+    say_outlook(self);
+    self.say(topic::map, 200ms, [](Time) { return small_map(); });
+  });
+  EXPECT_LT(run.took, OutlookClient::kPatience);
+  const screen::Circumstances seen = run.client->circumstances();
+  EXPECT_TRUE(seen.check.on_ground);
+  EXPECT_EQ(seen.check.takeoff.x(), 3.0);
+  EXPECT_EQ(seen.check.fence.radius, 20.0);
+  EXPECT_EQ(seen.check.most_speed, 2.5);
+  EXPECT_NEAR(seen.check.charge, 0.75, 1e-6);
+  ASSERT_TRUE(seen.map);
+  EXPECT_EQ(known_map(*seen.map).state({0, 0}), CellState::kOccupied);
+  EXPECT_THAT(run.client->unknown(), ElementsAre(HasSubstr("commander.endurance is not set")));
+}
+
+TEST(OutlookClient, NamesWhatItDidNotHear) {
+  const Trial<OutlookClient> without_map(say_outlook);
+  EXPECT_GE(without_map.took, OutlookClient::kPatience);
+  EXPECT_THAT(without_map.client->unknown(), testing::Contains("obstacles"));
+  const Trial<OutlookClient> none(nobody);
+  EXPECT_THAT(none.client->unknown(), ElementsAre("where it takes off", "the fence and speeds",
+                                                  "the battery's reach", "obstacles"));
 }
 
 TEST(MapClient, WaitsForTheVehicleForAMomentOnly) {
