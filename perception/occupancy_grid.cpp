@@ -171,6 +171,17 @@ void OccupancyGrid::set_probability(Cell cell, double probability) {
       std::isnan(probability) ? kNoEvidence : std::clamp(evidence_of(probability), min_, max_);
 }
 
+void OccupancyGrid::set_percents(const std::vector<std::int8_t>& percents) {
+  if (percents.size() != evidence_.size()) return;
+  std::size_t index = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::int8_t percent = percents[index++];
+      set_probability({x, y}, percent < 0 ? NAN : percent / 100.0);
+    }
+  }
+}
+
 Status OccupancyGrid::cover(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
   return cover_box(lower, upper, 1);
 }

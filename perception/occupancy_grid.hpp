@@ -104,6 +104,9 @@ class OccupancyGrid {
   void set_state(Cell cell, CellState state);
   /// Overwrites the evidence of a cell, clamped. NaN makes it unknown. No effect outside.
   void set_probability(Cell cell, double probability);
+  /// Overwrites all cells: 0 to 100 % occupied, below unknown, row by row from the lowest y, as
+  /// nav_msgs/OccupancyGrid has them. No effect where there are not as many.
+  void set_percents(const std::vector<std::int8_t>& percents);
 
  private:
   struct Segment;  // a levelled, clipped beam in the plane

@@ -200,7 +200,11 @@ class Commander : public Component {
   }
 
   Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
-    if (auto result = desk_.carry_out(command, director_, origin_.origin(), now())) return *result;
+    using swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;
+    if (auto result = desk_.carry_out(command, director_, origin_.origin(), now())) {
+      if (result->ok() && command.command() == MISSION_START) mission_id_ = desk_.id();
+      return *result;
+    }
     const std::optional<Request> request = request_of(command);
     if (!request) return Error{fmt::format("there is no command {}", command.command())};
     return director_.request(*request, now());

@@ -37,6 +37,8 @@ class MissionDesk {
   }
 
   swiftlet_msgs::msg::MissionState state(Time now) const;
+  /// Of the upload that the mission came with; "" where there is none.
+  const std::string& id() const { return id_; }
   /// What the claw shall be; nothing before it was told the first time.
   std::optional<bool> claw_open() const { return runner_.memory().claw_open; }
 

@@ -29,9 +29,9 @@ std::vector<OutwardTopic> standard_outward() {
       {topic::mission_state.name, 2.0, 0.0, true},   {topic::mission_download.name, 0.0, 0.0, true},
       {topic::parameter_reply.name, 0.0, 0.0, true}, {topic::component_status.name, 0.0, 0.0, true},
       {topic::diagnostics.name, 0.0, 0.0, true},     {topic::guard_status.name, 2.0, 0.0, true},
-      {topic::vehicle_limits.name, 0.5, 0.0, true},
-      {topic::battery.name, 1.0, 0.0, false},        {topic::odometry.name, 5.0, 0.0, false},
-      {topic::gps_fix.name, 1.0, 0.0, false},        {topic::claw_state.name, 2.0, 0.0, false}};
+      {topic::vehicle_limits.name, 0.5, 0.0, true},  {topic::battery.name, 1.0, 0.0, false},
+      {topic::odometry.name, 5.0, 0.0, false},       {topic::gps_fix.name, 1.0, 0.0, false},
+      {topic::claw_state.name, 2.0, 0.0, false}};
 }
 
 OutwardTopic read_outward(const Config& section) {

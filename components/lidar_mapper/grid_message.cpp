@@ -55,13 +55,7 @@ OccupancyGrid from_msg(const nav_msgs::msg::OccupancyGrid& message, OccupancyGri
   const Eigen::Vector3d origin = from_msg(message.info().origin().position());
   OccupancyGrid grid(params, origin.head<2>(), static_cast<int>(message.info().width()),
                      static_cast<int>(message.info().height()));
-  std::size_t index = 0;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      const std::int8_t percent = message.data()[index++];
-      if (percent >= 0) grid.set_probability({x, y}, percent / 100.0);
-    }
-  }
+  grid.set_percents(message.data());
   return grid;
 }
 

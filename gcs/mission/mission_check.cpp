@@ -117,7 +117,7 @@ void Checker::check_distances() {
           fmt::format("it is {:.2f} m from the place before, and does nothing there; leave it out",
                       leg(i).length));
     }
-    if (!leg(i).is_known) {
+    if (!leg(i).is_known && leg(i).has_begin) {
       say(Severity::kWarning, i,
           "nobody says where the map is on Earth, so that the way to it is not checked; give "
           "'home'");
@@ -177,13 +177,18 @@ void Checker::check_zones() {
 }
 
 void Checker::check_speeds() {
-  if (!params_.most_speed) return;
   for (std::size_t i = 0; i < count(); ++i) {
     const std::optional<double> speed = item(i).place.speed;
-    if (item(i).kind != Kind::kWaypoint || !speed || *speed <= *params_.most_speed) continue;
-    say(Severity::kError, i,
-        fmt::format("its speed of {} m/s is above the limit of {} m/s; lower it", *speed,
-                    *params_.most_speed));
+    if (item(i).kind != Kind::kWaypoint || !speed) continue;
+    if (params_.most_speed && *speed > *params_.most_speed) {
+      say(Severity::kError, i,
+          fmt::format("its speed of {} m/s is above the limit of {} m/s; lower it", *speed,
+                      *params_.most_speed));
+    } else if (params_.flown_speed && *speed > *params_.flown_speed) {
+      say(Severity::kWarning, i,
+          fmt::format("its speed of {} m/s is above what the vehicle flies, and will be {} m/s",
+                      *speed, *params_.flown_speed));
+    }
   }
 }
 

@@ -26,12 +26,15 @@ struct MissionFinding {
 /// What is known of the vehicle and of where it flies. Whatever is not given is not checked.
 struct MissionCheckParams {
   bool on_ground = true;                              ///< so that it begins with a take-off
-  Eigen::Vector3d takeoff = Eigen::Vector3d::Zero();  ///< where it stands, in the map [m]
-  std::optional<LocalOrigin> origin;                  ///< else from the mission's home
-  Geofence fence;                                     ///< around the take-off point
-  std::size_t most_items = 1000;                      ///< that the vehicle takes
-  std::optional<double> most_speed;                   ///< [m/s]
-  double longest_leg = 1000.0;                        ///< a longer one is a mistake [m]
+  Eigen::Vector3d takeoff = Eigen::Vector3d::Zero();  ///< where it stands or stood, in the map [m]
+  /// Where it is in the map, in flight [m]. Without, the way to the first waypoint is not checked.
+  std::optional<Eigen::Vector3d> start{};
+  std::optional<LocalOrigin> origin;  ///< else from the mission's home
+  Geofence fence;                     ///< around the take-off point
+  std::size_t most_items = 1000;      ///< that the vehicle takes
+  std::optional<double> most_speed;   ///< [m/s]
+  std::optional<double> flown_speed;  ///< what is faster is flown at that [m/s]
+  double longest_leg = 1000.0;        ///< a longer one is a mistake [m]
 
   const OccupancyGrid* map = nullptr;  ///< of its band of heights; where obstacles are known
   double clearance = 0.25;             ///< from the vehicle's centre to an obstacle [m]

@@ -49,8 +49,9 @@ class Tracker {
       : mission_(mission),
         params_(params),
         track_(track),
-        at_(params.takeoff),
-        is_flying_(!params.on_ground) {}
+        at_(params.on_ground ? params.takeoff : params.start.value_or(params.takeoff)),
+        is_flying_(!params.on_ground),
+        is_somewhere_(params.on_ground || params.start) {}
 
   void add(const MissionItem& item);
 
@@ -68,6 +69,7 @@ class Tracker {
   Eigen::Vector3d at_;
   bool in_map_ = true;
   bool is_flying_;
+  bool is_somewhere_;  // `at_` is known
   bool is_guided_by_gps_ = false;
   double speed_ = 0.0;  // of the last waypoint [m/s]
 };
@@ -98,13 +100,16 @@ void Tracker::fly_to(const MissionItem& item, MissionLeg& leg) {
     if (place.ok()) at_ = *place;  // else problem_of has said it
     in_map_ = track_.is_of_map;
     speed_ = item.place.speed.value_or(mission_.cruise_speed.value_or(params_.gps_speed));
+    if (params_.flown_speed) speed_ = std::min(speed_, *params_.flown_speed);
   } else {
     at_ = item.place.position;
     in_map_ = true;
   }
   leg.to = at_;
   leg.in_map = in_map_;
-  leg.is_known = was_in_map == in_map_;
+  leg.has_begin = is_somewhere_;
+  leg.is_known = is_somewhere_ && was_in_map == in_map_;
+  is_somewhere_ = true;
   if (leg.is_known) {
     leg.length = (leg.to - leg.from).norm();
     leg.duration = leg_time(leg, speed_);
@@ -115,7 +120,9 @@ void Tracker::fly_to(const MissionItem& item, MissionLeg& leg) {
 void Tracker::fly_back(MissionLeg& leg) {
   leg.flies = true;
   leg.is_straight = is_guided_by_gps_;
-  leg.is_known = in_map_;
+  leg.has_begin = is_somewhere_;
+  leg.is_known = is_somewhere_ && in_map_;
+  is_somewhere_ = true;
   at_.head<2>() = params_.takeoff.head<2>();
   in_map_ = true;
   leg.to = at_;

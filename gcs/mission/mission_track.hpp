@@ -15,7 +15,8 @@ struct MissionLeg {
   bool flies = false;        ///< from one place to another: to a waypoint, or back
   bool is_straight = false;  ///< without a planner that finds a way around obstacles
   bool in_map = true;        ///< `from` and `to` are; else in the plane of the track's origin
-  bool is_known = true;      ///< `from` and `to` are in the same of both
+  bool is_known = true;      ///< `from` and `to` are in the same of both, and known
+  bool has_begin = true;     ///< `from` is known
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< [m]
   double length = 0.0;                             ///< 0 where it is not known [m]

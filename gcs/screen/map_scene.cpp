@@ -38,8 +38,8 @@ MapScene scene_of(const GroundStationModel& model, Time now) {
   if (pose.known() && pose->p_WB.allFinite()) {
     scene.vehicle = {pose->p_WB.head<2>(), yaw_of(pose->q_WB), !pose.fresh(now)};
   }
-  if (model.vehicle().known() && model.vehicle()->in_flight) {
-    scene.pad = model.vehicle()->takeoff_point;
+  if (model.vehicle().known() && model.vehicle()->in_flight && model.vehicle()->takeoff_point) {
+    scene.pad = model.vehicle()->takeoff_point->head<2>();
   }
   if (model.path().known() && model.vehicle().known() && model.vehicle()->navigates)
     scene.path = *model.path();

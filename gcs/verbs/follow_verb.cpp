@@ -22,9 +22,10 @@ struct Options {
 };
 
 void follow(const NetworkOptions& network, const Options& options) {
-  MissionInbox::Items items =
-      flyable_items(network, mission_of_file(options.file), options.file, MissionBegin::kNow);
-  send_mission(network, std::move(items), std::max(kTransferPatience, options.command.patience()));
+  const double patience = std::max(kTransferPatience, options.command.patience());
+  MissionInbox::Items items = flyable_items(network, mission_of_file(options.file), options.file,
+                                            {MissionBegin::kNow, patience, nullptr});
+  send_mission(network, std::move(items), patience);
   GroundCommand start;
   start.name = "follow";
   start.command = swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <utility>
 
 #include "components/commander/mission_message.hpp"
@@ -36,6 +38,67 @@ TransferParams with_patience(double seconds) {
   return params;
 }
 
+constexpr const char* kNotSent = "the mission was not sent";
+
+void refuse_errors(const MissionCheck& check, const std::string& name, int code) {
+  if (!check.has_errors()) return;
+  for (const MissionFinding& finding : check.findings) {
+    fmt::print(stderr, "{}\n", describe(finding, name));
+  }
+  end_verb(code, kNotSent);
+}
+
+/// What a mission is checked by.
+struct Outlook {
+  MissionCheckParams params;
+  std::vector<std::string> unknown;
+  std::unique_ptr<OccupancyGrid> map;  // that the parameters point to
+};
+
+bool begins_with_takeoff(const MissionFile& mission) {
+  for (const WrittenItem& written : mission.items) {
+    if (written.item.kind != MissionItem::Kind::kClaw) {
+      return written.item.kind == MissionItem::Kind::kTakeoff;
+    }
+  }
+  return false;
+}
+
+Outlook look_out(const NetworkOptions& network, const MissionFile& mission,
+                 const UploadPlan& plan) {
+  const bool on_earth = !mission.home && std::any_of(mission.items.begin(), mission.items.end(),
+                                                     [](const WrittenItem& written) {
+                                                       return written.item.global.has_value();
+                                                     });
+  Host host(network.host_options("gcs"));
+  const auto& client = host.emplace<OutlookClient>("gcs", from_seconds(plan.patience), on_earth);
+  host.run();
+  if (!client.circumstances()) end_verb(kExitFailed, "interrupted; " + std::string(kNotSent));
+  const screen::Circumstances& seen = *client.circumstances();
+  Outlook outlook{seen.check, seen.unknown, nullptr};
+  if (seen.map) {
+    outlook.map = std::make_unique<OccupancyGrid>(known_map(*seen.map));
+    outlook.params.map = outlook.map.get();
+  }
+  if (plan.begin == MissionBegin::kLater) {
+    // From somewhere else perhaps, and with another battery.
+    outlook.params.on_ground = begins_with_takeoff(mission);
+    outlook.params.start.reset();
+    outlook.params.charge = 1.0;
+  }
+  return outlook;
+}
+
+/// Errors that the mission had before are none of who changes something else.
+void forgive_known(const MissionCheck& before, MissionCheck& check) {
+  for (MissionFinding& finding : check.findings) {
+    const bool is_known =
+        std::any_of(before.findings.begin(), before.findings.end(),
+                    [&finding](const MissionFinding& known) { return known.text == finding.text; });
+    if (is_known) finding.severity = MissionFinding::Severity::kWarning;
+  }
+}
+
 }  // namespace
 
 void add_patience(CLI::App& verb, double& patience_s) {
@@ -54,24 +117,25 @@ MissionFile mission_of_file(const std::string& file) {
 }
 
 MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFile& mission,
-                                  const std::string& name, MissionBegin begin) {
-  Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<OutlookClient>("gcs");
-  host.run();
-  const screen::Circumstances circumstances = client.circumstances();
-  MissionCheckParams params = circumstances.check;
-  if (begin == MissionBegin::kLater) params.on_ground = false;  // who knows what comes before
-  const OccupancyGrid map = circumstances.map ? known_map(*circumstances.map) : OccupancyGrid();
-  params.map = &map;
-  const MissionCheck check = check_mission(mission, params);
+                                  const std::string& name, const UploadPlan& plan) {
+  // What cannot be flown anywhere needs no vehicle to be asked.
+  MissionCheckParams anywhere;
+  anywhere.on_ground = false;
+  refuse_errors(check_mission(mission, anywhere), name, kExitUnusable);
+
+  Outlook outlook = look_out(network, mission, plan);
+  MissionCheck check = check_mission(mission, outlook.params);
+  if (plan.in_place_of != nullptr) {
+    forgive_known(check_mission(*plan.in_place_of, outlook.params), check);
+  }
   for (const MissionFinding& finding : check.findings) {
     fmt::print(stderr, "{}\n", describe(finding, name));
   }
-  if (const auto unknown = client.unknown(); !unknown.empty()) {
+  if (!outlook.unknown.empty()) {
     fmt::print(stderr, "{}: note: not known of the vehicle, and not checked: {}\n", name,
-               fmt::join(unknown, ", "));
+               fmt::join(outlook.unknown, ", "));
   }
-  if (check.has_errors()) end_verb(kExitUnusable, "the mission was not sent");
+  if (check.has_errors()) end_verb(kExitFailed, kNotSent);
   MissionInbox::Items items;
   for (const MissionItem& item : items_of(mission)) items.push_back(to_msg(item));
   return items;

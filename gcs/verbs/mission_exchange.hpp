@@ -21,11 +21,17 @@ MissionFile mission_of_file(const std::string& file);
 /// Whether a mission is flown at once, so that it has to begin where the vehicle is, or later.
 enum class MissionBegin { kNow, kLater };
 
+struct UploadPlan {
+  MissionBegin begin = MissionBegin::kLater;
+  double patience = 20.0;                    ///< for the vehicle to be heard [s]
+  const MissionFile* in_place_of = nullptr;  ///< what it has in common with that may be wrong
+};
+
 /// Its items, where the vehicle can fly it by all that it says of itself and of the place; what was
-/// found, and what could not be checked, goes to the error stream, by `name`. Exit code 2 where it
-/// has errors.
+/// found, and what could not be checked, goes to the error stream, by `name`. Exit code 2 where
+/// no vehicle could fly it, 1 where this one cannot.
 MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFile& mission,
-                                  const std::string& name, MissionBegin begin);
+                                  const std::string& name, const UploadPlan& plan);
 
 /// Brings items to the vehicle in place of those that it has, and reads them back. Exit code 1
 /// where it refuses them or they do not get there.

@@ -25,8 +25,8 @@ namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
 using Network = std::shared_ptr<NetworkOptions>;
 
 void upload(const NetworkOptions& network, const std::string& file, double patience) {
-  MissionInbox::Items items =
-      flyable_items(network, mission_of_file(file), file, MissionBegin::kLater);
+  MissionInbox::Items items = flyable_items(network, mission_of_file(file), file,
+                                            {MissionBegin::kLater, patience, nullptr});
   const std::size_t count = items.size();
   send_mission(network, std::move(items), patience);
   fmt::print("upload: {} items, read back\n", count);

@@ -13,8 +13,8 @@ constexpr Duration kTick = std::chrono::milliseconds(20);
 
 }  // namespace
 
-OutlookClient::OutlookClient(const ComponentContext& context, Duration patience)
-    : VehicleListener(context) {
+OutlookClient::OutlookClient(const ComponentContext& context, Duration patience, bool on_earth)
+    : VehicleListener(context), on_earth_(on_earth), deadline_(now() + patience) {
   subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
     model_.hear(from_msg(odometry), now());
   });
@@ -28,32 +28,23 @@ OutlookClient::OutlookClient(const ComponentContext& context, Duration patience)
         model_.hear_map(screen::map_of(map), now());
       },
       Need::kOptional);
-  const Time deadline = now() + patience;
-  every(kTick, [this, deadline](Time now) {
-    if (is_complete() || now >= deadline) stop(0);
-  });
+  every(kTick, [this](Time now) { advance(now); });
 }
 
-screen::Circumstances OutlookClient::circumstances() const {
-  return circumstances_of(model_, now());
+bool OutlookClient::knows_all_but_map(Time now) const {
+  return model_.vehicle().fresh(now) && model_.pose().known() && model_.limits().known() &&
+         model_.battery().known() && (!on_earth_ || model_.origin());
 }
 
-bool OutlookClient::is_complete() const {
-  return model_.vehicle().known() && model_.pose().known() && model_.limits().known() &&
-         model_.battery().known() && model_.map();
-}
-
-std::vector<std::string> OutlookClient::unknown() const {
-  std::vector<std::string> unknown;
-  if (!model_.vehicle().known() || !model_.pose().known()) unknown.push_back("where it takes off");
-  if (!model_.limits().known()) unknown.push_back("the fence and speeds");
-  if (!model_.battery().known() || !model_.limits().known()) {
-    unknown.push_back("the battery's reach");
-  } else if (!(model_.limits()->endurance > 0.0)) {
-    unknown.push_back("the battery's reach (commander.endurance is not set)");
-  }
-  if (!model_.map()) unknown.push_back("obstacles");
-  return unknown;
+void OutlookClient::advance(Time now) {
+  if (!heard_ && (model_.vehicle().known() || model_.pose().known())) heard_ = now;
+  if (!nearly_ && knows_all_but_map(now)) nearly_ = now;
+  const bool has_waited = heard_ ? now - *heard_ >= kMoment : now >= deadline_;
+  const bool is_complete = nearly_ && (model_.map() || now - *nearly_ >= kMapMoment);
+  if (!has_waited && !is_complete) return;
+  circumstances_ = circumstances_of(model_, now);
+  if (on_earth_ && !model_.origin()) circumstances_->unknown.push_back("where the map is on Earth");
+  stop(0);
 }
 
 }  // namespace swiftlet

@@ -55,7 +55,8 @@ void print(const MissionFile& mission, bool json) {
 /// Fetches the mission, changes it, and brings it back as a whole.
 template <class Edit>
 void edit(const NetworkOptions& network, const Options& options, Edit change) {
-  std::vector<MissionItem> items = items_of(fetch_mission(network, options.patience));
+  const MissionFile before = fetch_mission(network, options.patience);
+  std::vector<MissionItem> items = items_of(before);
   const Status changed = change(items);
   if (!changed.ok()) end_verb(kExitUnusable, changed.error().reason);
   if (items.empty()) {
@@ -65,8 +66,8 @@ void edit(const NetworkOptions& network, const Options& options, Edit change) {
   }
   MissionFile mission;
   for (MissionItem& item : items) mission.items.push_back({std::move(item), 0});
-  send_mission(network, flyable_items(network, mission, "the mission", MissionBegin::kLater),
-               options.patience);
+  const UploadPlan plan{MissionBegin::kLater, options.patience, &before};
+  send_mission(network, flyable_items(network, mission, "the mission", plan), options.patience);
   print(mission, options.json);
 }
 

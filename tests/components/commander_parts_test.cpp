@@ -6,6 +6,8 @@
 #include <array>
 
 #include "components/commander/attendance.hpp"
+#include "components/commander/director_params.hpp"
+#include "components/commander/limits_message.hpp"
 #include "components/commander/state_message.hpp"
 #include "components/runtime/message.hpp"
 #include "planner/trajectory/minimum_snap.hpp"
@@ -207,6 +209,30 @@ TEST(StateMessage, EveryDecisionMakesADifference) {
   EXPECT_TRUE(noticed([](auto& s) { s.waiting_since.reset(); }));
   EXPECT_TRUE(noticed([](auto& s) { s.mission_done = true; }));
   EXPECT_TRUE(noticed([](auto& s) { s.last_reason = "other"; }));
+}
+
+TEST(LimitsMessage, SaysWhatTheDirectorHoldsFlightsTo) {
+  Config config;
+  config.set("fence_radius", "20");
+  config.set("fence_height", "5");
+  config.set("gps_speed", "2.5");
+  config.set("takeoff_speed", "0.7");
+  config.set("landing_speed", "0.3");
+  config.set("vehicle_radius", "0.4");
+  config.set("endurance", "600");
+  MissionRunner::Params runner;
+  runner.most_items = 70;
+  const auto limits = make_limits(config, read_director_params(config), runner);
+  EXPECT_EQ(limits.fence_radius(), 20.0);
+  EXPECT_EQ(limits.fence_height(), 5.0);
+  EXPECT_EQ(limits.gps_speed(), 2.5);
+  EXPECT_EQ(limits.climb_speed(), 0.7);
+  EXPECT_EQ(limits.descent_speed(), 0.3);
+  EXPECT_EQ(limits.radius(), 0.4);
+  EXPECT_EQ(limits.endurance(), 600.0);
+  EXPECT_EQ(limits.most_items(), 70u);
+  EXPECT_EQ(limits.low_battery(), FlightDirector::Params().low_battery);
+  EXPECT_EQ(limits.gps_altitude(), FlightDirector::Params().gps_altitude);
 }
 
 }  // namespace

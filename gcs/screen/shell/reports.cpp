@@ -104,7 +104,7 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   report.waypoint = static_cast<int>(status.waypoint());
   report.waypoint_count = static_cast<int>(status.waypoint_count());
   report.mission_done = status.mission_done();
-  report.takeoff_point = Eigen::Vector2d(from_msg(status.takeoff_point()).head<2>());
+  report.takeoff_point = from_msg(status.takeoff_point());
   return report;
 }
 

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gcs/screen/state/circumstances.hpp"
 
+#include <cmath>
+
 namespace swiftlet::screen {
 namespace {
 
+/// In cells that are larger an obstacle is up to a cell too large [m].
+constexpr double kCoarse = 0.1;
+
 void take(const LimitsReport& limits, MissionCheckParams& check) {
-  check.fence = limits.fence;
   check.reserve = limits.low_battery;
   const auto take_known = [](double value, double& into) {
     if (value > 0.0) into = value;
@@ -16,8 +20,7 @@ void take(const LimitsReport& limits, MissionCheckParams& check) {
   take_known(limits.climb_speed, check.climb_speed);
   take_known(limits.descent_speed, check.descent_speed);
   take_known(limits.radius, check.clearance);
-  if (limits.gps_speed > 0.0) check.most_speed = limits.gps_speed;
-  if (limits.endurance > 0.0) check.endurance = limits.endurance;
+  if (limits.gps_speed > 0.0) check.flown_speed = limits.gps_speed;
   if (limits.most_items > 0) check.most_items = limits.most_items;
 }
 
@@ -36,30 +39,41 @@ Circumstances circumstances_of(const GroundStationModel& model, Time now) {
   MissionCheckParams& check = circumstances.check;
   // Where that is not known, the vehicle refuses what it cannot fly.
   check.on_ground = vehicle.fresh(now) && !vehicle->in_flight;
-  if (circumstances.in_flight) {
-    if (vehicle->takeoff_point) check.takeoff.head<2>() = *vehicle->takeoff_point;
-  } else if (circumstances.vehicle) {
-    check.takeoff = *circumstances.vehicle;
-  }
   check.origin = model.origin();
-  if (model.limits().known()) take(*model.limits(), check);
-  if (model.battery().known()) check.charge = model.battery()->percentage;
-  circumstances.map = model.map();
+  const std::optional<Eigen::Vector3d> takeoff =
+      circumstances.in_flight ? vehicle->takeoff_point : circumstances.vehicle;
+  if (takeoff) check.takeoff = *takeoff;
+  if (circumstances.in_flight) check.start = circumstances.vehicle;
+
+  const bool has_limits = model.limits().known();
+  const bool has_charge = model.battery().known() && std::isfinite(model.battery()->percentage);
+  if (has_limits) take(*model.limits(), check);
+  if (has_limits && takeoff) check.fence = model.limits()->fence;
+  if (has_charge) check.charge = model.battery()->percentage;
+  if (has_limits && has_charge && model.limits()->endurance > 0.0) {
+    check.endurance = model.limits()->endurance;
+  }
+  if (model.map() && model.map()->usable() && model.map()->resolution <= kCoarse) {
+    circumstances.map = model.map();
+  }
+  std::vector<std::string>& unknown = circumstances.unknown;
+  if (!takeoff) unknown.push_back("where it takes off");
+  if (!has_limits) unknown.push_back("its speeds");
+  if (!has_limits || !takeoff) unknown.push_back("the fence");
+  if (!check.endurance) {
+    unknown.push_back(has_limits && has_charge
+                          ? "the battery's reach (commander.endurance is not set)"
+                          : "the battery's reach");
+  }
+  if (!circumstances.map) unknown.push_back("obstacles");
   return circumstances;
 }
 
 OccupancyGrid known_map(const GridMap& map) {
   OccupancyGrid::Params params;
   params.resolution = map.resolution;
-  if (!map.usable()) return OccupancyGrid(params);
   OccupancyGrid grid(params, map.origin, map.width, map.height);
-  std::size_t index = 0;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const std::int8_t percent = map.cells[index++];
-      if (percent >= 0) grid.set_probability({x, y}, percent / 100.0);
-    }
-  }
+  grid.set_percents(map.cells);
   return grid;
 }
 

@@ -21,7 +21,8 @@ struct Circumstances {
   std::optional<Eigen::Vector3d> vehicle{};  ///< in the map [m]
   std::vector<std::string> components{};     ///< that have parameters
   MissionCheckParams check{};                ///< of a mission that is to be flown now; without map
-  std::shared_ptr<const GridMap> map{};      ///< null while none is known
+  std::shared_ptr<const GridMap> map{};      ///< null while none is known, or it is coarse
+  std::vector<std::string> unknown{};        ///< what cannot be checked therefore: "the fence"
 };
 
 Circumstances circumstances_of(const GroundStationModel& model, Time now);

@@ -27,7 +27,7 @@ struct VehicleReport {
   int waypoint = 0;        ///< that is flown to, from 1; 0 without a mission
   int waypoint_count = 0;  ///<
   bool mission_done = false;
-  std::optional<Eigen::Vector2d> takeoff_point{};  ///< in the map [m]
+  std::optional<Eigen::Vector3d> takeoff_point{};  ///< in the map [m]
 };
 
 /// The mission that the vehicle has.

@@ -93,7 +93,10 @@ TEST(UploadedMission, FromTheGroundThroughTheMapOverTheEarthAndBack) {
   flight.arm();
   flight.start();
   flight.until_item(2);
-  flight.check([&] { EXPECT_NEAR(pilot.truth.z(), 1.2, 0.15); });
+  flight.check([&] {
+    EXPECT_NEAR(pilot.truth.z(), 1.2, 0.15);
+    EXPECT_EQ(pilot.status.mission_id(), "m") << "what is flown";
+  });
   flight.until_item(4, 90.0);
   flight.check([&] {
     EXPECT_TRUE(pilot.is_in("GPS Guidance"));

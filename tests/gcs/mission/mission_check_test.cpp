@@ -10,6 +10,7 @@ namespace swiftlet {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -69,6 +70,40 @@ TEST(MissionCheck, WhatNeedsFlightStandsBetweenTakeoffAndLanding) {
   EXPECT_THAT(findings({kUp, hold_for(1)}),
               ElementsAre(HasSubstr("m: warning: it ends in the air")));
   EXPECT_THAT(findings({}), ElementsAre(HasSubstr("no items")));
+}
+
+TEST(MissionCheck, TheWayToTheFirstWaypointBeginsWhereTheVehicleIs) {
+  MissionCheckParams flying = params_with_origin();
+  flying.on_ground = false;
+  const std::vector<MissionItem> items{earth_at(2000, 0, 5), kBack};
+  const auto length = [&] { return check_mission(mission_of(items), flying).length; };
+  const double back = length();
+  EXPECT_NEAR(back, 2000.0, 1.0) << "who knows from where";
+  flying.start = Eigen::Vector3d(1500, 0, 5);
+  EXPECT_NEAR(length() - back, 500.0, 1.0);
+  flying.start = Eigen::Vector3d(-500, 0, 5);
+  EXPECT_THAT(findings(items, flying), Contains(HasSubstr("2500 m from the place before")));
+}
+
+TEST(MissionCheck, ATakeoffIsHeldToTheFence) {
+  MissionCheckParams params;
+  params.fence = {0, 5};
+  EXPECT_THAT(findings({takeoff_to(5), kDown}, params), IsEmpty());
+  EXPECT_THAT(findings({takeoff_to(6), kDown}, params),
+              ElementsAre(HasSubstr("item 1: error: it is at 6.0 m, 1.0 m above the fence")));
+}
+
+TEST(MissionCheck, WhatIsFasterThanTheVehicleFliesIsSlowedDown) {
+  MissionCheckParams params = params_with_origin();
+  params.flown_speed = 3.0;
+  const MissionItem fast = with_speed(earth_at(60, 0, 5), 6.0);
+  EXPECT_THAT(findings({kUp, fast, kBack}, params),
+              ElementsAre(AllOf(HasSubstr("item 2: warning: its speed of 6 m/s"),
+                                HasSubstr("will be 3 m/s"))));
+  const auto duration = [&params](const MissionItem& item) {
+    return check_mission(mission_of({kUp, item, kDown}), params).duration;
+  };
+  EXPECT_EQ(duration(fast), duration(with_speed(fast, 3.0)));
 }
 
 TEST(MissionCheck, TheVehicleTakesSoManyItems) {

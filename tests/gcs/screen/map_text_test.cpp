@@ -42,7 +42,7 @@ VehicleReport flying(const std::string& mode, bool navigates) {
   report.mode = mode;
   report.in_flight = true;
   report.navigates = navigates;
-  report.takeoff_point = {1.0, 1.0};
+  report.takeoff_point = {1.0, 1.0, 0.0};
   return report;
 }
 

@@ -272,24 +272,29 @@ TEST(Circumstances, AreWhatAMissionIsCheckedBy) {
   EXPECT_TRUE(circumstances_of(model, kBegin).check.on_ground);
   EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 3.0) << "where it stands";
   VehicleReport flying = report("Hover");
-  flying.takeoff_point = Eigen::Vector2d(1.0, 2.0);
+  flying.takeoff_point = Eigen::Vector3d(1.0, 2.0, 0.5);
   model.hear(flying, kBegin);
   EXPECT_FALSE(circumstances_of(model, kBegin).check.on_ground);
-  EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff.x(), 1.0);
+  EXPECT_EQ(circumstances_of(model, kBegin).check.takeoff, Eigen::Vector3d(1.0, 2.0, 0.5));
+  EXPECT_EQ(circumstances_of(model, kBegin).check.start->x(), 3.0) << "where it is";
 }
 
 TEST(Circumstances, HaveTheLimitsThatTheVehicleTellsOf) {
   GroundStationModel model;
   const MissionCheckParams before = circumstances_of(model, kBegin).check;
-  EXPECT_FALSE(before.most_speed || before.endurance) << "not known, not checked";
+  EXPECT_FALSE(before.flown_speed || before.endurance) << "not known, not checked";
   model.hear(LimitsReport{{20.0, 5.0}, 10.0, 2.0, 0.5, 0.3, 0.4, 0.25, 600.0, 50}, kBegin);
   model.hear(BatteryReport{0.8, 15.0, 1.0, 2.0}, kBegin);
+  EXPECT_EQ(circumstances_of(model, kBegin).check.fence.radius, 0.0) << "around what?";
+  EXPECT_THAT(circumstances_of(model, kBegin).unknown,
+              testing::ElementsAre("where it takes off", "the fence", "obstacles"));
+  model.hear(at(3.0, 4.0), kBegin);
   const MissionCheckParams check = circumstances_of(model, kBegin).check;
   EXPECT_EQ(check.fence.radius, 20.0);
   EXPECT_EQ(check.fence.height, 5.0);
   EXPECT_EQ(check.gps_altitude, 10.0);
   EXPECT_EQ(check.gps_speed, 2.0);
-  EXPECT_EQ(check.most_speed, 2.0);
+  EXPECT_EQ(check.flown_speed, 2.0);
   EXPECT_EQ(check.climb_speed, 0.5);
   EXPECT_EQ(check.descent_speed, 0.3);
   EXPECT_EQ(check.clearance, 0.4);
@@ -297,6 +302,9 @@ TEST(Circumstances, HaveTheLimitsThatTheVehicleTellsOf) {
   EXPECT_EQ(check.endurance, 600.0);
   EXPECT_EQ(check.charge, 0.8);
   EXPECT_EQ(check.most_items, 50u);
+  model.hear(BatteryReport{NAN, 15.0, 1.0, 2.0}, kBegin);
+  EXPECT_FALSE(circumstances_of(model, kBegin).check.endurance) << "of how much?";
+  model.hear(BatteryReport{0.8, 15.0, 1.0, 2.0}, kBegin);
   model.hear(LimitsReport{}, kBegin);
   EXPECT_EQ(circumstances_of(model, kBegin).check.gps_speed, before.gps_speed) << "not told";
   EXPECT_FALSE(circumstances_of(model, kBegin).check.endurance);
