@@ -69,8 +69,8 @@ const std::vector<Experiment>& experiments() {
        run_slam_benchmark},
       {"planning", "public maps in the plane and in space, beside OMPL's planners", true,
        run_planning_benchmark},
-      {"exploration", "the unknown house, explored and left, beside the nearest frontier first",
-       false, run_exploration},
+      {"exploration", "the unknown house, explored and left, beside the rule of 1997", false,
+       run_exploration},
   };
   return all;
 }

@@ -27,7 +27,6 @@ Explorer::Params read_params(const Config& config) {
   config.read("range", params.range, kPositive);
   config.read("frontier_extent", params.frontier_extent, kPositive);
   config.read("least_area", params.least_area, kNotNegative);
-  config.read("greed", params.greed, kNotNegative);
   config.read("near", params.near, kPositive);
   config.read("patience", params.patience, {1, 1000});
   config.read("to_the_end", params.to_the_end);
@@ -48,7 +47,6 @@ class ExplorerComponent : public Component {
       if (exploring_) grid_ = from_msg(map, OccupancyGrid::Params());
     });
     subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& message) {
-      home_ = {message.takeoff_point().x(), message.takeoff_point().y()};
       const bool explores =
           message.mode() == swiftlet_msgs::msg::VehicleStatus_Constants::INDOOR_EXPLORATION;
       if (explores && !exploring_) begin();
@@ -89,11 +87,10 @@ class ExplorerComponent : public Component {
   }
 
   void step(Time now) {
-    const ExplorationStep step = explorer_.step(grid_, position_, home_);
+    const ExplorationStep step = explorer_.step(grid_, position_);
     swiftlet_msgs::msg::Exploration message;
     message.header(make_header(now, frame::kMap));
     message.frontiers(static_cast<std::uint32_t>(step.frontiers));
-    message.to_go(step.to_go);
     message.reason(step.reason);
     switch (step.kind) {
       case ExplorationStep::Kind::kLook:
@@ -115,7 +112,6 @@ class ExplorerComponent : public Component {
   bool exploring_ = false;
   OccupancyGrid grid_;
   Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d home_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> looked_at_;
   Time goal_stamp_{};
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();

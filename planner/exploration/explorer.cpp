@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "planner/exploration/cell_ways.hpp"
-#include "planner/exploration/visiting_order.hpp"
 
 namespace swiftlet {
 namespace {
@@ -17,8 +16,6 @@ namespace {
 constexpr int kLattice = 4;
 /// Unknown space around a map [m].
 constexpr double kBorder = 1.0;
-/// In more places no order is sought: those that are farthest away come later [places].
-constexpr std::size_t kMostPlaces = 40;
 
 DistanceField::Params field_params(double clearance, bool unknown_is_obstacle) {
   DistanceField::Params params;
@@ -42,39 +39,6 @@ Result<OccupancyGrid> with_border(const OccupancyGrid& map) {
       grid.cover(map.origin() - border, map.origin() + size * map.resolution() + border);
   if (!covered.ok()) return covered.error();
   return grid;
-}
-
-/// As visiting_order wants them: from the beginning of `ways` past places that they reach, and
-/// home. Where home is not reached, the way may end anywhere.
-std::vector<std::vector<double>> lengths_between(const StandingSpace& standing,
-                                                 const CellWays& ways,
-                                                 const std::vector<Cell>& places,
-                                                 const std::optional<Cell>& home) {
-  const std::size_t count = places.size() + 2;
-  std::vector<std::vector<double>> between(count, std::vector<double>(count, 0.0));
-  const auto set = [&between](std::size_t a, std::size_t b, double length) {
-    between[a][b] = between[b][a] = length;
-  };
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const CellWays from(standing, places[i]);
-    set(0, i + 1, ways.length(places[i]));
-    for (std::size_t j = i + 1; j < places.size(); ++j) set(i + 1, j + 1, from.length(places[j]));
-    if (home) set(i + 1, count - 1, from.length(*home));
-  }
-  return between;
-}
-
-/// Of a short way past all places that goes to the `first` before all others.
-double length_beginning_with(std::size_t first, const std::vector<std::vector<double>>& between) {
-  std::vector<std::size_t> rest{first};
-  for (std::size_t i = 1; i < between.size(); ++i) {
-    if (i != first) rest.push_back(i);
-  }
-  std::vector<std::vector<double>> of_rest(rest.size(), std::vector<double>(rest.size()));
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    for (std::size_t j = 0; j < rest.size(); ++j) of_rest[i][j] = between[rest[i]][rest[j]];
-  }
-  return between[0][first] + length_of(visiting_order(of_rest), of_rest);
 }
 
 }  // namespace
@@ -168,10 +132,6 @@ std::vector<Explorer::Sight> Explorer::find_sights(const OccupancyGrid& grid,
     const std::size_t last = overlap_with_last(grid, frontier);
     sights.push_back({frontier, *best, ways.length(*best), last});
   }
-  // By the way to them, so that the farthest are left for later where there are too many.
-  std::stable_sort(sights.begin(), sights.end(),
-                   [](const Sight& a, const Sight& b) { return a.way < b.way; });
-  if (sights.size() > kMostPlaces) sights.resize(kMostPlaces);
   return sights;
 }
 
@@ -215,31 +175,15 @@ void Explorer::reset() {
   second_chance_ = true;
 }
 
-/// What the last step was for, as long as it is a frontier: who changes his mind on the way stops,
-/// turns, and does it again. Then the nearest, unless that makes the way past all of them longer by
-/// more than `greed`; else the one that comes first in a short way.
-std::size_t Explorer::choose(const std::vector<Sight>& sights,
-                             const std::vector<std::vector<double>>& between, double& to_go) const {
-  const std::vector<std::size_t> order = visiting_order(between);
-  to_go = length_of(order, between);
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    if (sights[i].last > sights[last].last) last = i;
-  }
-  if (sights[last].last > 0) return last;
-  const std::size_t first = order[1] - 1;
-  if (first == 0) return first;
-  return length_beginning_with(1, between) <= to_go + params_.greed ? 0 : first;
-}
-
 bool Explorer::is_on_the_way(const Eigen::Vector2d& position) const {
   return !looked_at_.empty() && (position - last_.viewpoint).norm() > params_.arrival_distance;
 }
 
-ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& position,
-                               const Eigen::Vector2d& home) {
+/// What the last step was for comes first, as long as it is a frontier: who changes his mind on the
+/// way stops, turns, and does it again.
+ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& position) {
   if (map.empty()) return stuck("there is no map yet");
-  if (!position.allFinite() || !home.allFinite()) return stuck("no usable position");
+  if (!position.allFinite()) return stuck("no usable position");
   const auto bordered = with_border(map);
   if (!bordered.ok()) return stuck(bordered.error().reason);
   const OccupancyGrid& grid = *bordered;
@@ -264,19 +208,14 @@ ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& 
     sights = find_sights(grid, space, ways, frontiers);
   }
 
-  auto home_cell = standing.nearest(grid.cell_of(home));
-  if (home_cell && !ways.reaches(*home_cell)) home_cell.reset();
   ExplorationStep step;
   step.frontiers = sights.size();
   looked_at_.clear();
-  if (sights.empty()) {
-    step.to_go = home_cell ? ways.length(*home_cell) : 0.0;
-    return step;
-  }
-  std::vector<Cell> places;
-  for (const Sight& sight : sights) places.push_back(sight.from);
+  if (sights.empty()) return step;
   const Sight& next =
-      sights[choose(sights, lengths_between(standing, ways, places, home_cell), step.to_go)];
+      *std::min_element(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
+        return a.last != b.last ? a.last > b.last : a.way < b.way;
+      });
   step.kind = ExplorationStep::Kind::kLook;
   step.viewpoint = grid.center_of(next.from);
   for (const Cell cell : next.frontier.cells) looked_at_.insert(place_of(grid, cell));

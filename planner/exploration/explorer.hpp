@@ -29,15 +29,13 @@ struct ExplorationStep {
   Kind kind = Kind::kFinished;
   Eigen::Vector2d viewpoint = Eigen::Vector2d::Zero();  ///< of kLook [m]
   std::size_t frontiers = 0;                            ///< that can be looked into
-  double to_go = 0.0;  ///< past all of them and home, as far as is known [m]
-  std::string reason;  ///< of kStuck
+  std::string reason;                                   ///< of kStuck
 };
 
-/// Exploration of an unknown place, frontier by frontier: the nearest first (Yamauchi, CIRA 1997),
-/// unless a short way past all of them that ends at home begins elsewhere and saves more than
-/// `greed` (Kulich, Faigl and Preucil, ICRA 2011). Each is looked into from the place that is
-/// nearest to it. To be asked again while the vehicle flies: a frontier that has been seen on the
-/// way is none any more, and the next one comes at once; until then nothing else does.
+/// Exploration of an unknown place, frontier by frontier, the nearest first (Yamauchi, CIRA 1997),
+/// each looked into from the place that is nearest to it. To be asked again while the vehicle
+/// flies: a frontier that has been seen on the way is none any more, and the next one comes at
+/// once; until then nothing else does.
 ///
 /// A frontier counts where some part of the vehicle could come to what is unseen, should all that
 /// is unknown be free: the unseen inside of furniture is none. The vehicle flies through known free
@@ -51,21 +49,19 @@ class Explorer {
     double range = 6.0;             ///< a frontier is looked into from no farther [m]
     double frontier_extent = 1.5;   ///< a longer one is several [m]
     double least_area = 0.05;       ///< less that is unseen is not worth a look [m^2]
-    double greed = 4.0;             ///< the nearest comes first if that costs no more [m]
     double near = 3.0;              ///< in sight and nearer counts as a look [m]
     double arrival_distance = 0.3;  ///< so near to the viewpoint, every step does [m]
     int patience = 5;               ///< looks, one a step, after which nothing new is expected
-    /// On to the viewpoint even where everything has been seen from the way: with endless greed
-    /// the rule of 1997, which others are measured against.
+    /// On to the viewpoint even where everything has been seen from the way: the rule of 1997,
+    /// which others are measured against.
     bool to_the_end = false;
   };
 
   Explorer() : Explorer(Params{}) {}
   explicit Explorer(const Params& params);
 
-  /// The next look, for a vehicle at `position` that will end at `home` [m].
-  ExplorationStep step(const OccupancyGrid& map, const Eigen::Vector2d& position,
-                       const Eigen::Vector2d& home);
+  /// The next look, for a vehicle at `position` [m].
+  ExplorationStep step(const OccupancyGrid& map, const Eigen::Vector2d& position);
   /// Nobody finds a way to the viewpoint of the last step: what it was for is given up.
   void give_up();
   /// Forgets what was given up.
@@ -87,8 +83,6 @@ class Explorer {
   bool is_given_up(const OccupancyGrid& grid, const Frontier& frontier) const;
   bool is_on_the_way(const Eigen::Vector2d& position) const;
   std::size_t overlap_with_last(const OccupancyGrid& grid, const Frontier& frontier) const;
-  std::size_t choose(const std::vector<Sight>& sights,
-                     const std::vector<std::vector<double>>& between, double& to_go) const;
   void look_around(const SeenSpace& space, const OccupancyGrid& grid, Cell vehicle,
                    const std::vector<Frontier>& frontiers);
 

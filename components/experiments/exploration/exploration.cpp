@@ -65,16 +65,13 @@ OccupancyGrid true_map(const Scenario& scenario) {
 }
 
 Result<Exploration> explore(const std::filesystem::path& file, Scenario scenario, int seed,
-                            bool nearest_first, const OccupancyGrid& truth) {
+                            bool to_the_end, const OccupancyGrid& truth) {
   scenario.seed = static_cast<std::uint64_t>(seed);
   Config parameters;
   parameters.set("sim.scenario", file.string());
   parameters.set("sim.seed", std::to_string(seed));
   parameters.set("planner.seed", std::to_string(seed));
-  if (nearest_first) {
-    parameters.set("explorer.greed", "1000");
-    parameters.set("explorer.to_the_end", "true");
-  }
+  if (to_the_end) parameters.set("explorer.to_the_end", "true");
   HostOptions options;
   options.participant.name = "experiment";
   options.lockstep = true;
@@ -131,17 +128,17 @@ double duration(const Exploration& flight) {
   return flight.outcome.flight_time;
 }
 
-/// Ours beside the nearest frontier first, and the share that ours is of it, seed by seed.
+/// Ours beside the rule of 1997, and the share that ours is of it, seed by seed.
 void compare(const std::string& quantity, const std::string& unit,
              const std::vector<Exploration>& ours, const std::vector<Exploration>& peers,
              const Quantity& value, std::vector<ExperimentRow>& rows) {
   constexpr double kMostOfPeer = 0.85;
-  const ExperimentRow peer = row_of("nearest frontier first: " + quantity, unit, peers, value);
+  const ExperimentRow peer = row_of("rule of 1997: " + quantity, unit, peers, value);
   ExperimentRow row = row_of(quantity, unit, ours, value);
   row.reference = peer.median();
-  row.source = "nearest frontier first, median";
+  row.source = "rule of 1997, median";
   ExperimentRow share;
-  share.quantity = quantity + ", share of the nearest frontier's";
+  share.quantity = quantity + ", share of the rule of 1997's";
   for (std::size_t i = 0; i < row.values.size(); ++i) {
     share.values.push_back(row.values[i] / peer.values[i]);
   }
@@ -174,11 +171,11 @@ std::vector<ExperimentRow> table(const std::vector<Exploration>& ours,
   compare("length flown", "m", ours, peers, length, rows);
   compare("time from arming to disarming", "s", ours, peers, duration, rows);
   ExperimentRow& mapped =
-      rows.emplace_back(row_of("nearest frontier first: share mapped", "", peers,
+      rows.emplace_back(row_of("rule of 1997: share mapped", "", peers,
                                [](const Exploration& flight) { return flight.mapped; }));
   mapped.more_is_better = true;
   ExperimentRow& flown = rows.emplace_back(
-      row_of("nearest frontier first: explored, returned and landed", "", peers, was_flown));
+      row_of("rule of 1997: explored, returned and landed", "", peers, was_flown));
   flown.more_is_better = true;
   return rows;
 }
@@ -189,14 +186,14 @@ Result<ExperimentResult> run_exploration(const ExperimentOptions& options) {
   const std::filesystem::path file = shared_file(kScenario);
   const Scenario scenario = Scenario::load(file);
   const OccupancyGrid truth = true_map(scenario);
-  std::vector<Exploration> flights[2];  // ours, and the nearest frontier first
+  std::vector<Exploration> flights[2];  // ours, and the rule of 1997
   int done = 0;
   for (int seed = 1; seed <= options.seeds; ++seed) {
-    for (const bool nearest_first : {false, true}) {
+    for (const bool to_the_end : {false, true}) {
       options.progress(done++, 2 * options.seeds);
-      auto flight = explore(file, scenario, seed, nearest_first, truth);
+      auto flight = explore(file, scenario, seed, to_the_end, truth);
       if (!flight.ok()) return Error{fmt::format("seed {}: {}", seed, flight.error().reason)};
-      flights[nearest_first ? 1 : 0].push_back(std::move(*flight));
+      flights[to_the_end ? 1 : 0].push_back(std::move(*flight));
     }
   }
   options.progress(done, done);
@@ -205,7 +202,7 @@ Result<ExperimentResult> run_exploration(const ExperimentOptions& options) {
   Status drawn =
       draw(scenario, flights[0].front(), "our explorer", options.report / "exploration.png");
   if (drawn.ok()) {
-    drawn = draw(scenario, flights[1].front(), "the nearest frontier first",
+    drawn = draw(scenario, flights[1].front(), "the rule of 1997",
                  options.report / "exploration-nearest.png");
   }
   if (!drawn.ok()) return drawn.error();

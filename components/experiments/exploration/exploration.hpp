@@ -6,7 +6,8 @@
 
 namespace swiftlet {
 
-/// The unknown house, explored and left: our explorer beside the nearest frontier first (1997).
+/// The unknown house, explored and left: our explorer beside the nearest frontier, flown to its end
+/// (Yamauchi, CIRA 1997).
 Result<ExperimentResult> run_exploration(const ExperimentOptions& options);
 
 }  // namespace swiftlet

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
-// Ways, frontiers and orders against what a person or a slower program says.
+// Ways and frontiers against what a person or a slower program says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "planner/exploration/cell_ways.hpp"
 #include "planner/exploration/frontiers.hpp"
-#include "planner/exploration/visiting_order.hpp"
 
 namespace swiftlet {
 namespace {
@@ -116,38 +114,6 @@ TEST(SeenSpace, SightEndsAtWhatIsNotOpen) {
   EXPECT_TRUE(space.sees({0, 1}, {2, 1})) << "the obstacle itself is seen";
   EXPECT_FALSE(space.sees({1, 0}, {3, 2}));
   EXPECT_TRUE(space.is_unseen({-1, 0}));
-}
-
-TEST(VisitingOrder, IsNearlyAsShortAsTheShortest) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(0.0, 10.0);
-  double excess = 0.0;
-  for (int round = 0; round < 200; ++round) {
-    const std::size_t count = 2 + round % 7;
-    std::vector<Eigen::Vector2d> places(count);
-    for (auto& p : places) p = {place(random), place(random)};
-    std::vector<std::vector<double>> between(count, std::vector<double>(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) between[i][j] = (places[i] - places[j]).norm();
-    }
-    const std::vector<std::size_t> order = visiting_order(between);
-    ASSERT_EQ(order.front(), 0U);
-    ASSERT_EQ(order.back(), count - 1);
-    std::vector<std::size_t> all(count);
-    std::iota(all.begin(), all.end(), 0U);
-    ASSERT_TRUE(std::is_permutation(order.begin(), order.end(), all.begin(), all.end()));
-    double shortest = length_of(all, between);
-    while (std::next_permutation(all.begin() + 1, all.end() - 1)) {
-      shortest = std::min(shortest, length_of(all, between));
-    }
-    const double length = length_of(order, between);
-    EXPECT_GE(length, shortest - 1e-9);
-    EXPECT_LE(length, 1.10 * shortest + 1e-9);
-    excess += length / shortest - 1.0;
-  }
-  EXPECT_LT(excess / 200.0, 0.003);
-  EXPECT_TRUE(visiting_order({}).empty());
-  EXPECT_EQ(visiting_order({{0.0}}).size(), 1U);
 }
 
 }  // namespace
