@@ -133,7 +133,10 @@ void ChildProcess::forward(Stream& stream) {
       print(stream, stream.pending.substr(begin, end - begin));
     }
     stream.pending.erase(0, begin);
-    if (stream.pending.size() > kLongestLine) print(stream, std::exchange(stream.pending, {}));
+    if (stream.pending.size() > kLongestLine) {
+      print(stream, stream.pending);
+      stream.pending.clear();
+    }
   }
 }
 
