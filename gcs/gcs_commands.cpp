@@ -14,12 +14,12 @@
 
 #include "components/introspection/introspection_commands.hpp"
 #include "components/runtime/command_line.hpp"
+#include "components/runtime/number_check.hpp"
 #include "gcs/screen/shell/screen_command.hpp"
 #include "gcs/sticks/stick_client.hpp"
 #include "gcs/verbs/command_options.hpp"
 #include "gcs/verbs/mission_file_verbs.hpp"
 #include "gcs/verbs/mission_verbs.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/status_view.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
@@ -68,8 +68,7 @@ void add_gps(CLI::App& gcs, const Network& network) {
   verb->add_option("longitude", place->longitude, "WGS84 [deg]")->required()->check(finite);
   verb->add_option("--altitude", place->altitude,
                    "Above the take-off point [m]; else that of the commander's gps_altitude")
-      ->check(CLI::PositiveNumber)
-      ->check(finite);
+      ->check(within(0.1, 1e4));
   const auto options = std::make_shared<CommandOptions>();
   options->add_to(*verb);
   network->add_to(*verb);

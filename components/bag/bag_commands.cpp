@@ -11,10 +11,10 @@
 #include <optional>
 
 #include "components/bag/bag_info.hpp"
-#include "components/bag/between.hpp"
 #include "components/bag/carmen/carmen_log.hpp"
 #include "components/bag/convert_carmen.hpp"
 #include "components/bag/repair_file.hpp"
+#include "components/runtime/number_check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -212,12 +212,12 @@ void add_convert(CLI::App& bag) {
   carmen
       ->add_option("--max-range", options->params.max_range,
                    "Ranges from here on are no return [m]")
-      ->check(between(0.1, 1000.0))
+      ->check(within(0.1, 1000.0))
       ->capture_default_str();
   carmen
       ->add_option("--laser-height", options->laser_height,
                    "Height of the scanner, which the log does not have [m]")
-      ->check(between(-1000.0, 1000.0))
+      ->check(within(-1000.0, 1000.0))
       ->capture_default_str();
   carmen->callback([options] { run_convert_carmen(*options); });
 }

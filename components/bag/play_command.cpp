@@ -8,12 +8,12 @@
 #include <set>
 
 #include "components/bag/bag_info.hpp"
-#include "components/bag/between.hpp"
 #include "components/bag/live_commands.hpp"
 #include "components/bag/player.hpp"
-#include "components/terminal/terminal.hpp"
 #include "components/runtime/command_line.hpp"
 #include "components/runtime/names.hpp"
+#include "components/runtime/number_check.hpp"
+#include "components/terminal/terminal.hpp"
 
 namespace swiftlet {
 namespace {
@@ -184,12 +184,12 @@ void add_play_command(CLI::App& bag) {
   verb->add_option("files", options->files, "Recordings (.mcap), or folders of them, played as one")
       ->required();
   verb->add_option("--rate", options->player.rate, "Times faster than recorded")
-      ->check(between(1e-3, 1e3))
+      ->check(within(1e-3, 1e3))
       ->capture_default_str();
-  verb->add_option("--start", options->start_s, "Skip so many seconds")->check(between(0.0, 1e9));
+  verb->add_option("--start", options->start_s, "Skip so many seconds")->check(within(0.0, 1e9));
   verb->add_option("--delay", options->delay_s,
                    "Seconds before the first message, for others to find the topics")
-      ->check(between(0.0, 3600.0))
+      ->check(within(0.0, 3600.0))
       ->capture_default_str();
   verb->add_option("--topics", options->player.topics,
                    "Topics to play, or patterns like 'camera/*'; else all");
@@ -202,7 +202,7 @@ void add_play_command(CLI::App& bag) {
                    "Publish the recording's time on the topic clock, so many times a second")
       ->expected(0, 1)
       ->default_str(fmt::format("{}", kUsualClockHz))
-      ->check(between(0.1, 10'000.0));
+      ->check(within(0.1, 10'000.0));
   verb->add_flag("--loop", options->player.loop, "Again from the start, until Ctrl-C");
   options->network.add_to(*verb);
   verb->callback([options] {

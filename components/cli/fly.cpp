@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <limits>
 #include <optional>
 
 #include "components/bag/content_hash.hpp"
@@ -14,6 +15,7 @@
 #include "components/cli/verbs.hpp"
 #include "components/lidar_mapper/map_keeper.hpp"
 #include "components/runtime/command_line.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/sim/pilot.hpp"
 #include "components/sim/referee.hpp"
 
@@ -130,7 +132,7 @@ void add_fly(CLI::App& app) {
   verb->add_option("--report", options->report,
                    "Folder for report.json, flight.png and the map; made where it is missing");
   verb->add_option("--seed", options->seed, "Seed of everything random, instead of the scenario's")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_within(0, std::numeric_limits<int>::max()));
   verb->add_option("--what-if", options->what_if,
                    "Something that goes wrong: \"kill estimator@12.5\", \"delay scan 80ms\", "
                    "\"drop imu0 20%\", the last two with \"@3..4.5\" for a time; may be repeated")

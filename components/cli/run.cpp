@@ -9,6 +9,7 @@
 #include "components/launch/system_file.hpp"
 #include "components/runtime/command_line.hpp"
 #include "components/runtime/execution/real_time.hpp"
+#include "components/runtime/number_check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -78,11 +79,11 @@ void add_run(CLI::App& app) {
           "--standby", options->standby,
           "Place in the line of succession: 0 comes first; 1 and above wait, hear everything "
           "and take over when the active instance falls silent")
-      ->check(CLI::Range(0, 9));
+      ->check(whole_within(0, 9));
   verb->add_option("--rt", options->real_time_priority,
                    "Ask for real time: SCHED_FIFO with this priority, and locked memory; the log "
                    "says what was granted")
-      ->check(CLI::Range(1, 99));
+      ->check(whole_within(1, 99));
   options->parameters.add_to(*verb);
   options->network.add_to(*verb);
   verb->callback([options] {

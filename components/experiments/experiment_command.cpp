@@ -11,6 +11,7 @@
 
 #include "components/experiments/experiment.hpp"
 #include "components/runtime/config/config.hpp"
+#include "components/runtime/number_check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -81,7 +82,7 @@ void add_experiment(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = group->add_subcommand(experiment.name, experiment.summary);
     verb->add_option("--seeds", options->experiment.seeds, "How many runs, each with its own seed")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_within(1, 10000))
         ->capture_default_str();
     verb->add_option("--report", options->experiment.report,
                      "Folder for figures; made where it is missing");

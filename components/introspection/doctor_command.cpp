@@ -10,6 +10,7 @@
 #include "components/introspection/diagnosis.hpp"
 #include "components/introspection/introspection_commands.hpp"
 #include "components/introspection/status_observer.hpp"
+#include "components/runtime/number_check.hpp"
 
 namespace swiftlet {
 namespace {
@@ -45,7 +46,7 @@ void add_doctor(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "doctor", "What is wrong with the running system; exit code 1 if anything");
   verb->add_option("--wait", options->wait_s, "Seconds to listen to what components say")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(within(0.1, 3600.0))
       ->capture_default_str();
   verb->add_flag("--json", options->json, "For scripts");
   options->network.add_to(*verb);

@@ -12,6 +12,7 @@
 #include "components/introspection/introspection_commands.hpp"
 #include "components/introspection/topic_meter.hpp"
 #include "components/introspection/topic_text.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/runtime/reflection/idl_files.hpp"
 
 namespace swiftlet {
@@ -150,7 +151,7 @@ void add_echo(CLI::App& topic) {
   verb->add_option("topic", options->echo.topic, "Topic, for instance odometry")->required();
   CLI::Option* once = verb->add_flag("--once", options->once, "One message, then end");
   verb->add_option("--count", options->echo.count, "So many messages, then end")
-      ->check(CLI::Range(1, 1'000'000'000))
+      ->check(whole_within(1, 1'000'000'000))
       ->excludes(once);
   verb->add_option("--field", options->echo.field,
                    "Only this part: pose.pose.position, ranges[17]");
@@ -169,11 +170,11 @@ void add_meter(CLI::App& topic, const char* name, const char* component, const c
   CLI::App* verb = topic.add_subcommand(name, what);
   verb->add_option("topic", options->meter.topic, "Topic, for instance odometry")->required();
   verb->add_option("--window", options->meter.window, "Messages that a report is about, at most")
-      ->check(CLI::Range(2, 10'000'000))
+      ->check(whole_within(2, 10'000'000))
       ->capture_default_str();
   CLI::Option* once = verb->add_flag("--once", options->once, "One report, then end");
   verb->add_option("--count", options->meter.count, "So many reports, then end")
-      ->check(CLI::Range(1, 1'000'000'000))
+      ->check(whole_within(1, 1'000'000'000))
       ->excludes(once);
   verb->add_flag("--json", options->meter.json, "A line of JSON a report");
   options->network.add_to(*verb);

@@ -17,6 +17,7 @@
 
 #include "components/lidar_mapper/map_file.hpp"
 #include "components/plot/figure.hpp"
+#include "components/runtime/number_check.hpp"
 #include "perception/map_io.hpp"
 #include "perception/rooms/room_survey.hpp"
 #include "perception/slam/map_joiner.hpp"
@@ -192,8 +193,7 @@ void add_map(CLI::App& app) {
   CLI::App* draw = map->add_subcommand("draw", "Draw it: .pgm with .yaml beside it, or .png");
   draw->add_option("file", options->file, "Map file (.mcap)")->required();
   draw->add_option("-o,--output", options->output, "Image to write")->required();
-  draw->add_option("--resolution", options->resolution, "Of a cell [m]")
-      ->check(CLI::Range(0.005, 1.0));
+  draw->add_option("--resolution", options->resolution, "Of a cell [m]")->check(within(0.005, 1.0));
   draw->callback([options] { run_draw(options->file, options->output, options->resolution); });
 
   CLI::App* rooms = map->add_subcommand(
@@ -201,7 +201,7 @@ void add_map(CLI::App& app) {
       "Its rooms, measured: free floor, from wall to wall both ways, and the area of a floor plan");
   rooms->add_option("file", options->file, "Map file (.mcap)")->required();
   rooms->add_option("--widest-door", options->widest_door, "What is narrower parts rooms [m]")
-      ->check(CLI::Range(0.2, 10.0));
+      ->check(within(0.2, 10.0));
   rooms->add_option("--draw", options->output, "Picture to write (.png)");
   rooms->add_flag("--json", options->json, "For programs");
   rooms->callback([options] {

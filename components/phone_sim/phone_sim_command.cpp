@@ -15,6 +15,7 @@
 #include "components/phone_sim/made_up_motion.hpp"
 #include "components/phone_sim/phone_simulator.hpp"
 #include "components/runtime/command_line.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/runtime/runtime_error.hpp"
 #include "components/sim/scenario.hpp"
 #include "components/topics.hpp"
@@ -157,7 +158,7 @@ void add_phone_sim(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("phone-sim", "Send poses to phone_link as a phone would");
   verb->add_option("--to", options->to, "IPv4 address of the vehicle")->capture_default_str();
   verb->add_option("--port", options->port, "UDP port")
-      ->check(CLI::Range(1, 65535))
+      ->check(whole_within(1, 65535))
       ->capture_default_str();
   verb->add_flag("--follow", options->follow,
                  "The vehicle of 'swiftlet run sim --param sim.phone=false'");
@@ -166,29 +167,28 @@ void add_phone_sim(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--scenario", options->scenario,
                    "Take rate, errors and mount of the phone from its sensors.phone");
-  verb->add_option("--rate", options->rate_hz, "Poses a second [30]")
-      ->check(CLI::Range(0.1, 500.0));
+  verb->add_option("--rate", options->rate_hz, "Poses a second [30]")->check(within(0.1, 500.0));
   verb->add_flag("--json", options->json, "Send JSON with a checksum, not the binary form");
   verb->add_option("--seed", options->seed, "Decides the errors, and the frame of the phone")
       ->capture_default_str();
   verb->add_option("--duration", options->duration, "Seconds; until interrupted without")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(0.0, 1e6));
   verb->add_option("--latency", options->latency_ms, "Delay of each pose [ms]")
-      ->check(CLI::Range(0.0, 1e4));
+      ->check(within(0.0, 1e4));
   verb->add_option("--jitter", options->jitter_ms, "Mean of a random delay on top of it [ms]")
-      ->check(CLI::Range(0.0, 1e4));
+      ->check(within(0.0, 1e4));
   verb->add_option("--drop", options->drop, "Probability that a pose is lost")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   verb->add_option("--clock-offset", options->clock_offset,
                    "What the phone's clock shows at the start [s]")
-      ->check(CLI::Range(0.0, 2e9));
+      ->check(within(0.0, 2e9));
   verb->add_option("--clock-drift", options->clock_drift_ppm, "By how much it is fast [ppm]")
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(within(-1e4, 1e4));
   verb->add_option("--jump-at", options->jump_at, "Seconds after which the phone finds itself anew")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(0.0, 1e6));
   verb->add_option("--jump", options->jump, "By how much: x y z [m] and yaw [rad], in its frame")
       ->expected(4)
-      ->check(CLI::Range(-1e3, 1e3))
+      ->check(within(-1e3, 1e3))
       ->capture_default_str();
   options->network.add_to(*verb);
   verb->callback([options] { simulate_phone(*options); });

@@ -10,6 +10,7 @@
 
 #include "components/runtime/dds/qos_overrides.hpp"
 #include "components/runtime/names.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
 
 namespace swiftlet {
@@ -67,7 +68,7 @@ void ParameterOptions::finish(const Config& parameters, const std::vector<std::s
 
 void NetworkOptions::add_to(CLI::App& verb) {
   verb.add_option("--domain", domain_, "DDS domain; else ROS_DOMAIN_ID, else 0")
-      ->check(CLI::Range(0, 232));
+      ->check(whole_within(0, 232));
   verb.add_option("--vehicle", vehicle_, "Prefix of all topics, for several vehicles");
   const char* group = "Network";
   const auto add_list = [&](const char* name, std::vector<std::string>& list, const char* what) {
@@ -84,19 +85,19 @@ void NetworkOptions::add_to(CLI::App& verb) {
                   "true or false: announce by multicast; else where there is no peer or server")
       ->group(group);
   verb.add_option("--multicast-ttl", network_.multicast_ttl, "Hops that announcements may take")
-      ->check(CLI::Range(0, 255))
+      ->check(whole_within(0, 255))
       ->group(group);
   verb.add_option("--network-wait", network_.wait, "Wait so long for the interfaces [s]")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(within(0.0, 3600.0))
       ->group(group);
   verb.add_option("--max-datagram", network_.max_datagram, "Largest UDP datagram [byte]")
-      ->check(CLI::Range(576, 65500))
+      ->check(whole_within(576, 65500))
       ->group(group);
   verb.add_option("--see-all", network_.see_all,
                   "true or false: hear of all topics through a discovery server, or of one's own")
       ->group(group);
   verb.add_option("--pace", network_.pace, "Limit for samples above 64 kB [byte/s]")
-      ->check(CLI::Range(0, 1'000'000'000))
+      ->check(whole_within(0, 1'000'000'000))
       ->group(group);
   verb.add_option("--qos-profiles", qos_file_,
                   "Fast DDS profiles file (XML); its data_writer and data_reader profiles that are "

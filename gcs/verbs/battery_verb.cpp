@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "components/runtime/number_check.hpp"
 #include "gcs/verbs/battery_view.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 

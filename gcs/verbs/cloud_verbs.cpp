@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "components/runtime/names.hpp"
+#include "components/runtime/number_check.hpp"
 #include "estimation/basics/whole_file.hpp"
 #include "gcs/verbs/cloud_client.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 #include "perception/cloud_io.hpp"

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "components/runtime/number_check.hpp"
 #include "gcs/command/command_client.hpp"
 #include "gcs/command/command_watch.hpp"
-#include "gcs/verbs/number_check.hpp"
 
 namespace swiftlet {
 namespace {

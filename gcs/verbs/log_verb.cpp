@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <optional>
 
+#include "components/runtime/number_check.hpp"
 #include "gcs/screen/drawing/surface.hpp"
 #include "gcs/screen/shell/locale_text.hpp"
 #include "gcs/verbs/log_client.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "components/lidar_mapper/grid_message.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/terminal/terminal.hpp"
 #include "estimation/basics/whole_file.hpp"
 #include "gcs/screen/map_scene.hpp"
 #include "gcs/screen/shell/locale_text.hpp"
 #include "gcs/verbs/map_client.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 #include "perception/map_io.hpp"

@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "components/commander/mission_message.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/terminal/terminal.hpp"
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/transfer/mission_clients.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/outlook_client.hpp"
 #include "gcs/verbs/verb_end.hpp"
 

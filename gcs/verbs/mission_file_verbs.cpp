@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/number_check.hpp"
 #include "gcs/mission/mission_check.hpp"
 #include "gcs/mission/mission_file.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "perception/map_io.hpp"
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
 #include "gcs/command/mission_state_name.hpp"
 #include "gcs/mission/mission_file.hpp"
@@ -98,7 +99,7 @@ void add_order(CLI::App& mission, const Network& network, const std::string& nam
   CLI::App* verb = mission.add_subcommand(name, what);
   if (code == command::MISSION_START) {
     verb->add_option("--item", order->item, "To begin with, from 1; else where it was paused")
-        ->check(CLI::PositiveNumber);
+        ->check(whole_within(1, 1'000'000));
   }
   options->add_to(*verb);
   network->add_to(*verb);

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "components/mode_message.hpp"
+#include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
 #include "gcs/command/command_name.hpp"
 #include "gcs/verbs/command_options.hpp"
 #include "gcs/verbs/first_message.hpp"
 #include "gcs/verbs/mode_names.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 

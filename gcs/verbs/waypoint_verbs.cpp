@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "components/runtime/number_check.hpp"
 #include "gcs/mission/degrees.hpp"
 #include "gcs/mission/mission_edit.hpp"
 #include "gcs/mission/mission_text.hpp"
 #include "gcs/verbs/mission_exchange.hpp"
-#include "gcs/verbs/number_check.hpp"
 #include "gcs/verbs/verb_end.hpp"
 #include "gcs/verbs/verbs.hpp"
 
@@ -110,7 +110,7 @@ Verb add_verb(CLI::App& group, const Network& network, const char* name, const c
 void add_number(const Verb& verb) {
   verb.app->add_option("number", verb.options->number, "Of the item, from 1; see: waypoint list")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(whole_within(1, 1'000'000));
 }
 
 void add_place(const Verb& verb) {
@@ -156,7 +156,7 @@ void add_waypoint_verbs(CLI::App& gcs, const Network& network) {
                "A waypoint at the end, but before a landing or a return that ends it", add);
   add_place(added);
   added.app->add_option("--at", added.options->at, "Its number; those from there on come after it")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_within(1, 1'000'000));
   add_common(added, network);
 
   const Verb moved = add_verb(*group, network, "move", "Put a waypoint elsewhere", move);
