@@ -48,6 +48,7 @@ nlohmann::json to_json(const FlightReport& report) {
                              record.position_rmse.z()};
   json["pose_nees"] = number(record.pose_nees);
   json["flight_time_s"] = report.outcome.flight_time;
+  json["length_flown_m"] = length_flown(record);
   json["speed_factor"] = number(report.speed_factor);
   json["bag_hash"] = report.bag_hash ? nlohmann::json(*report.bag_hash) : nlohmann::json(nullptr);
   return json;
@@ -101,8 +102,8 @@ std::string summary(const FlightReport& report) {
   const FlightRecord& record = report.record;
   std::string text = fmt::format("{} {}: {}\n", success(report) ? "DONE  " : "FAILED",
                                  report.scenario.name, reason(report));
-  text += fmt::format("flight     {:.1f} s, {:.1f} times real time\n", report.outcome.flight_time,
-                      report.speed_factor);
+  text += fmt::format("flight     {:.1f} s and {:.1f} m, {:.1f} times real time\n",
+                      report.outcome.flight_time, length_flown(record), report.speed_factor);
   text +=
       fmt::format("contacts   {}, clearance at least {:.2f} m, at {:.1f} {:.1f}\n", record.contacts,
                   record.min_clearance, record.closest_at.x(), record.closest_at.y());

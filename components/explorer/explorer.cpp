@@ -29,7 +29,7 @@ Explorer::Params read_params(const Config& config) {
   config.read("least_area", params.least_area, kNotNegative);
   config.read("near", params.near, kPositive);
   config.read("patience", params.patience, {1, 1000});
-  config.read("to_the_end", params.to_the_end);
+  config.read("rule_of_1997", params.rule_of_1997);
   return params;
 }
 

@@ -107,6 +107,14 @@ void Referee::score() {
   }
 }
 
+double length_flown(const FlightRecord& record) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < record.flown.size(); ++i) {
+    length += (record.flown[i] - record.flown[i - 1]).norm();
+  }
+  return length;
+}
+
 FlightRecord Referee::record() const {
   FlightRecord record = record_;
   record.contacts = static_cast<int>(last_truth_.contacts());

@@ -31,6 +31,9 @@ struct FlightRecord {
   std::vector<Eigen::Vector3d> reference;  ///< at 20 Hz, while armed [m]
 };
 
+/// Of the way that was flown [m].
+double length_flown(const FlightRecord& record);
+
 /// Watches a simulated flight and keeps the score. It takes part in nothing, and says on
 /// `diagnostics` how good the estimate's covariance is.
 class Referee : public Component {

@@ -41,6 +41,29 @@ Result<OccupancyGrid> with_border(const OccupancyGrid& map) {
   return grid;
 }
 
+/// The map, with obstacles where unknown space is so deep that a vehicle at the edge of what has
+/// been seen has no part in it.
+OccupancyGrid without_the_deep(const OccupancyGrid& grid, const SeenSpace& space, double depth) {
+  OccupancyGrid open(grid.params(), grid.origin(), grid.width(), grid.height());
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      if (space.is_open({x, y})) open.set_state({x, y}, CellState::kOccupied);
+    }
+  }
+  DistanceField::Params params;
+  params.max_distance = depth + grid.resolution();
+  const DistanceField to_open(open, params);
+  OccupancyGrid shallow = grid;
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      if (space.is_unseen({x, y}) && to_open.distance({x, y}) > depth) {
+        shallow.set_state({x, y}, CellState::kOccupied);
+      }
+    }
+  }
+  return shallow;
+}
+
 }  // namespace
 
 struct Explorer::Sight {
@@ -74,10 +97,13 @@ std::size_t Explorer::overlap_with_last(const OccupancyGrid& grid, const Frontie
       [&](Cell cell) { return looked_at_.find(place_of(grid, cell)) != looked_at_.end(); }));
 }
 
-/// A byte a cell: whether some part of the vehicle could come there, should all that is unknown be
-/// free.
-std::vector<std::uint8_t> Explorer::could_be_swept(const OccupancyGrid& grid, Cell start) {
-  hope_.update(grid);
+/// A byte a cell: whether some part of the vehicle could come there, should what is unknown be free
+/// at the edge of what has been seen. (Should all of it be free, ways would lead through the unseen
+/// walls of rooms around the house, to the far side of every corner of a wall.)
+std::vector<std::uint8_t> Explorer::could_be_swept(const OccupancyGrid& grid,
+                                                   const SeenSpace& space, Cell start) {
+  const double depth = params_.clearance + grid.resolution();
+  hope_.update(params_.rule_of_1997 ? grid : without_the_deep(grid, space, depth));
   OccupancyGrid centres(grid.params(), grid.origin(), grid.width(), grid.height());
   const CellWays ways(StandingSpace(hope_, params_.clearance), start);
   for (const Cell cell : ways.reached()) {
@@ -194,12 +220,12 @@ ExplorationStep Explorer::step(const OccupancyGrid& map, const Eigen::Vector2d& 
 
   const SeenSpace space(grid);
   const CellWays ways(standing, *start);
-  if (params_.to_the_end && is_on_the_way(position) &&
+  if (params_.rule_of_1997 && is_on_the_way(position) &&
       ways.reaches(grid.cell_of(last_.viewpoint))) {
     return last_;
   }
   const std::vector<Frontier> frontiers =
-      find_frontiers(space, could_be_swept(grid, *start), params_.frontier_extent);
+      find_frontiers(space, could_be_swept(grid, space, *start), params_.frontier_extent);
   look_around(space, grid, *start, frontiers);
   std::vector<Sight> sights = find_sights(grid, space, ways, frontiers);
   if (sights.empty() && std::exchange(second_chance_, false)) {

@@ -37,8 +37,8 @@ struct ExplorationStep {
 /// flies: a frontier that has been seen on the way is none any more, and the next one comes at
 /// once; until then nothing else does.
 ///
-/// A frontier counts where some part of the vehicle could come to what is unseen, should all that
-/// is unknown be free: the unseen inside of furniture is none. The vehicle flies through known free
+/// A frontier counts where some part of the vehicle could come to what is unseen, should that be
+/// free at its edge: the unseen inside of furniture is none. The vehicle flies through known free
 /// space alone. Every wait ends: a frontier that stays one after `patience` looks, or to whose
 /// viewpoint nobody finds a way, is given up; once, when nothing else is left, all of these are
 /// tried again.
@@ -52,9 +52,9 @@ class Explorer {
     double near = 3.0;              ///< in sight and nearer counts as a look [m]
     double arrival_distance = 0.3;  ///< so near to the viewpoint, every step does [m]
     int patience = 5;               ///< looks, one a step, after which nothing new is expected
-    /// On to the viewpoint even where everything has been seen from the way: the rule of 1997,
-    /// which others are measured against.
-    bool to_the_end = false;
+    /// What others are measured against: on to the viewpoint even where everything has been seen
+    /// from the way, and a frontier counts wherever all that is unknown might be free.
+    bool rule_of_1997 = false;
   };
 
   Explorer() : Explorer(Params{}) {}
@@ -75,7 +75,8 @@ class Explorer {
   using Place = std::pair<int, int>;
   static Place place_of(const OccupancyGrid& grid, Cell cell);
 
-  std::vector<std::uint8_t> could_be_swept(const OccupancyGrid& grid, Cell start);
+  std::vector<std::uint8_t> could_be_swept(const OccupancyGrid& grid, const SeenSpace& space,
+                                           Cell start);
   std::vector<Sight> find_sights(const OccupancyGrid& grid, const SeenSpace& space,
                                  const CellWays& ways, const std::vector<Frontier>& frontiers);
   std::optional<Cell> place_at(const Frontier& frontier, const SeenSpace& space,

@@ -34,14 +34,6 @@ struct Exploration {
   double landing_off = 0.0;  ///< from the centre of the pad [m]
 };
 
-double length_of(const std::vector<Eigen::Vector3d>& positions) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    length += (positions[i] - positions[i - 1]).norm();
-  }
-  return length;
-}
-
 /// The world as a perfect map would show it at the height of flight.
 OccupancyGrid true_map(const Scenario& scenario) {
   const World world = World::load(scenario.world, scenario.ground_models);
@@ -65,13 +57,13 @@ OccupancyGrid true_map(const Scenario& scenario) {
 }
 
 Result<Exploration> explore(const std::filesystem::path& file, Scenario scenario, int seed,
-                            bool to_the_end, const OccupancyGrid& truth) {
+                            bool rule_of_1997, const OccupancyGrid& truth) {
   scenario.seed = static_cast<std::uint64_t>(seed);
   Config parameters;
   parameters.set("sim.scenario", file.string());
   parameters.set("sim.seed", std::to_string(seed));
   parameters.set("planner.seed", std::to_string(seed));
-  if (to_the_end) parameters.set("explorer.to_the_end", "true");
+  if (rule_of_1997) parameters.set("explorer.rule_of_1997", "true");
   HostOptions options;
   options.participant.name = "experiment";
   options.lockstep = true;
@@ -84,7 +76,7 @@ Result<Exploration> explore(const std::filesystem::path& file, Scenario scenario
   Exploration result{pilot.outcome(), referee.record(), 0.0, 0.0, 0.0};
   if (!result.outcome.finished) return Error{"ended by the error above, or by a signal"};
   const Eigen::Vector2d start(scenario.start.x, scenario.start.y);
-  result.length = length_of(result.record.flown);
+  result.length = length_flown(result.record);
   result.landing_off = (result.record.final_position.head<2>() - start).norm();
   if (const auto grid = map.latest()) {
     result.mapped = mapped_share(truth, *grid, start, Explorer::Params().clearance);
@@ -189,11 +181,11 @@ Result<ExperimentResult> run_exploration(const ExperimentOptions& options) {
   std::vector<Exploration> flights[2];  // ours, and the rule of 1997
   int done = 0;
   for (int seed = 1; seed <= options.seeds; ++seed) {
-    for (const bool to_the_end : {false, true}) {
+    for (const bool rule_of_1997 : {false, true}) {
       options.progress(done++, 2 * options.seeds);
-      auto flight = explore(file, scenario, seed, to_the_end, truth);
+      auto flight = explore(file, scenario, seed, rule_of_1997, truth);
       if (!flight.ok()) return Error{fmt::format("seed {}: {}", seed, flight.error().reason)};
-      flights[to_the_end ? 1 : 0].push_back(std::move(*flight));
+      flights[rule_of_1997 ? 1 : 0].push_back(std::move(*flight));
     }
   }
   options.progress(done, done);

@@ -59,7 +59,7 @@ double length_through_houses(const Explorer::Params& params) {
 
 TEST(Explorer, HasAShorterWayThanTheRuleOf1997) {
   Explorer::Params of_1997;
-  of_1997.to_the_end = true;
+  of_1997.rule_of_1997 = true;
   const double ours = length_through_houses({});
   const double theirs = length_through_houses(of_1997);
   EXPECT_LT(ours, 0.95 * theirs);
@@ -69,7 +69,7 @@ TEST(Explorer, ToTheEndMeansToTheViewpoint) {
   RandomHouse house(3);
   const Eigen::Vector2d start = house.free_place(0.6);
   Explorer::Params params;
-  params.to_the_end = true;
+  params.rule_of_1997 = true;
   Explorer explorer(params);
   ExplorationWalk walk(house, start);
   std::optional<Eigen::Vector2d> last;
