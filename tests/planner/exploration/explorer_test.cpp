@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 
 #include "tests/planner/exploration/exploration_walk.hpp"
@@ -132,6 +133,37 @@ TEST(Explorer, WhatCannotBeReachedIsGivenUp) {
   EXPECT_GT(steps, 2);
   explorer.reset();
   EXPECT_EQ(explorer.step(walk.grid, start).kind, Kind::kLook);
+}
+
+/// A room of 4 m that has been seen, with a doorway in the east, and in the west a piece of wall of
+/// 45 cm that no ray has hit, too narrow to fly through. What lies around the room is unknown.
+OccupancyGrid room_with_an_unseen_piece_of_wall() {
+  constexpr int kMargin = 30, kRoom = 80, kSize = kRoom + 2 * kMargin;
+  constexpr int kWest = kMargin, kEast = kMargin + kRoom - 1;
+  OccupancyGrid grid({}, {0.0, 0.0}, kSize, kSize);
+  const auto is_near_middle = [](int y, int cells) { return std::abs(y - kSize / 2) <= cells; };
+  for (int y = kWest; y <= kEast; ++y) {
+    for (int x = kWest; x <= kEast; ++x) {
+      if (x == kWest && is_near_middle(y, 4)) continue;
+      const bool doorway = x == kEast && is_near_middle(y, 10);
+      const bool wall = x == kWest || x == kEast || y == kWest || y == kEast;
+      grid.set_state({x, y}, wall && !doorway ? CellState::kOccupied : CellState::kFree);
+    }
+  }
+  return grid;
+}
+
+TEST(Explorer, AnUnseenPieceOfWallIsNoFrontierBecauseAWayAroundTheHouseMightBeFree) {
+  const OccupancyGrid grid = room_with_an_unseen_piece_of_wall();
+  const Eigen::Vector2d middle =
+      grid.origin() + 0.5 * grid.resolution() * Eigen::Vector2d(grid.width(), grid.height());
+  const ExplorationStep ours = Explorer().step(grid, middle);
+  ASSERT_EQ(ours.kind, Kind::kLook);
+  EXPECT_EQ(ours.frontiers, 1U);
+  EXPECT_GT(ours.viewpoint.x(), middle.x()) << "the doorway is in the east";
+  Explorer::Params of_1997;
+  of_1997.rule_of_1997 = true;
+  EXPECT_EQ(Explorer(of_1997).step(grid, middle).frontiers, 2U);
 }
 
 TEST(Explorer, WithoutAMapOrAPlaceItIsStuckAndSaysWhy) {
