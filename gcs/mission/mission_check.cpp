@@ -16,6 +16,7 @@ namespace {
 
 using Kind = MissionItem::Kind;
 using Severity = MissionFinding::Severity;
+using About = MissionFinding::About;
 
 constexpr double kLowestTakeoff = 0.3;  // below, the ground's cushion holds it [m]
 constexpr double kSamePlace = 0.05;     // nearer counts as the same [m]
@@ -41,19 +42,21 @@ class Checker {
   const MissionItem& item(std::size_t i) const { return mission_.items[i].item; }
   const MissionLeg& leg(std::size_t i) const { return track_.legs[i]; }
   void say(Severity severity, std::size_t i, std::string text) {
-    result_.findings.push_back({severity, i + 1, mission_.items[i].line, std::move(text)});
+    result_.findings.push_back({severity, about_, i + 1, mission_.items[i].line, std::move(text)});
   }
   void say_of_all(Severity severity, std::string text) {
-    result_.findings.push_back({severity, 0, 0, std::move(text)});
+    result_.findings.push_back({severity, about_, 0, 0, std::move(text)});
   }
 
   const MissionFile& mission_;
   const MissionCheckParams& params_;
   const MissionTrack track_;
   MissionCheck result_;
+  About about_ = About::kSize;
 };
 
 void Checker::check_items() {
+  about_ = About::kItem;
   for (std::size_t i = 0; i < count(); ++i) {
     const std::string problem = problem_of(item(i));
     if (!problem.empty()) say(Severity::kError, i, problem + "; correct it");
@@ -66,6 +69,7 @@ void Checker::check_items() {
 }
 
 void Checker::check_order() {
+  about_ = About::kOrder;
   bool flies = !params_.on_ground, has_landed = false, has_said = false;
   for (std::size_t i = 0; i < count(); ++i) {
     const Kind kind = item(i).kind;
@@ -100,6 +104,7 @@ void Checker::check_order() {
 }
 
 void Checker::check_distances() {
+  about_ = About::kDistance;
   bool has_waypoint = false;
   for (std::size_t i = 0; i < count(); ++i) {
     if (item(i).kind != Kind::kWaypoint) continue;
@@ -127,6 +132,7 @@ void Checker::check_distances() {
 }
 
 void Checker::check_fence() {
+  about_ = About::kFence;
   const Geofence& fence = params_.fence;
   for (std::size_t i = 0; i < count(); ++i) {
     const MissionItem& what = item(i);
@@ -161,6 +167,7 @@ void Checker::check_fence() {
 }
 
 void Checker::check_zones() {
+  about_ = About::kZone;
   if (mission_.fence.empty() || !track_.origin) return;
   const FenceZones zones(mission_.fence, *track_.origin);
   for (std::size_t i = 0; i < count(); ++i) {
@@ -177,6 +184,7 @@ void Checker::check_zones() {
 }
 
 void Checker::check_speeds() {
+  about_ = About::kSpeed;
   for (std::size_t i = 0; i < count(); ++i) {
     const std::optional<double> speed = item(i).place.speed;
     if (item(i).kind != Kind::kWaypoint || !speed) continue;
@@ -193,6 +201,7 @@ void Checker::check_speeds() {
 }
 
 void Checker::check_obstacles() {
+  about_ = About::kObstacle;
   if (params_.map == nullptr || params_.map->empty()) return;
   const KnownObstacles obstacles(*params_.map, params_.clearance);
   for (std::size_t i = 0; i < count(); ++i) {
@@ -219,6 +228,7 @@ void Checker::check_obstacles() {
 }
 
 void Checker::check_battery() {
+  about_ = About::kBattery;
   const double available =
       params_.endurance.value_or(0.0) * std::max(0.0, params_.charge - params_.reserve);
   double elapsed = 0.0;
@@ -279,6 +289,29 @@ bool MissionCheck::has_errors() const {
 
 MissionCheck check_mission(const MissionFile& mission, const MissionCheckParams& params) {
   return Checker(mission, params).check();
+}
+
+MissionCheck check_change(const MissionFile& before, const MissionFile& after,
+                          const MissionCheckParams& params) {
+  MissionCheck check = check_mission(after, params);
+  std::vector<MissionFinding> known;
+  for (MissionFinding& finding : check_mission(before, params).findings) {
+    if (finding.severity == Severity::kError) known.push_back(std::move(finding));
+  }
+  const auto forgive = [&](auto is_same) {
+    for (MissionFinding& finding : check.findings) {
+      if (finding.severity != Severity::kError) continue;
+      const auto same = std::find_if(known.begin(), known.end(), [&](const MissionFinding& old) {
+        return is_same(old, finding);
+      });
+      if (same == known.end()) continue;
+      finding.severity = Severity::kWarning;
+      known.erase(same);
+    }
+  };
+  forgive([](const auto& old, const auto& now) { return old.text == now.text; });
+  forgive([](const auto& old, const auto& now) { return old.about == now.about; });
+  return check;
 }
 
 std::string describe(const MissionFinding& finding, const std::string& file) {

@@ -17,7 +17,10 @@ struct MissionFinding {
     kError,    ///< it cannot be flown as it is
     kWarning,  ///< it can; who sends it should know
   };
+  /// What it is about.
+  enum class About { kItem, kOrder, kDistance, kFence, kZone, kSpeed, kObstacle, kBattery, kSize };
   Severity severity = Severity::kError;
+  About about = About::kItem;
   std::size_t item = 0;  ///< from 1; 0 where it is about the mission as a whole
   int line = 0;          ///< of the item in its file; 0 where it has none
   std::string text;      ///< a sentence with numbers and a remedy
@@ -68,6 +71,12 @@ struct MissionCheck {
 /// is straight, and must be clear of obstacles that the map knows at its height; to a place in the
 /// map the planner finds a way, and the end alone must be clear.
 MissionCheck check_mission(const MissionFile& mission, const MissionCheckParams& params);
+
+/// The same of a mission in place of another: errors that the other had are none of who changes
+/// something else, and are warnings. Each of them forgives one: the same, or else one that is about
+/// the same, since their numbers change with the mission.
+MissionCheck check_change(const MissionFile& before, const MissionFile& after,
+                          const MissionCheckParams& params);
 
 /// "office.yaml:12: item 3: error: ...", a line.
 std::string describe(const MissionFinding& finding, const std::string& file);

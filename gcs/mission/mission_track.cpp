@@ -86,7 +86,7 @@ double Tracker::leg_time(const MissionLeg& leg, double speed) const {
   const double way = (leg.to - leg.from).head<2>().norm();
   const double climb = std::abs(leg.to.z() - leg.from.z());
   return time_for(way, speed, params_.acceleration) +
-         time_for(climb, params_.climb_speed, params_.acceleration);
+         time_for(climb, std::min(params_.climb_speed, speed), params_.acceleration);
 }
 
 void Tracker::fly_to(const MissionItem& item, MissionLeg& leg) {

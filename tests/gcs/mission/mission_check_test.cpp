@@ -283,6 +283,30 @@ TEST(MissionCheck, TheBatteryReachesToTheEnd) {
       << "said once, where it happens";
 }
 
+TEST(MissionCheck, AnErrorOfBeforeForgivesOneOfItsKind) {
+  MissionCheckParams params = params_with_origin();
+  params.fence.height = 50.0;
+  const auto change = [&params](const std::vector<MissionItem>& before,
+                                const std::vector<MissionItem>& after) {
+    return check_change(mission_of(before), mission_of(after), params);
+  };
+  const MissionItem high = earth_at(10, 0, 60.0), higher = earth_at(10, 0, 70.0);
+  const std::vector<MissionItem> before{kUp, high, kBack};
+  ASSERT_TRUE(check_mission(mission_of(before), params).has_errors());
+  EXPECT_FALSE(change(before, {kUp, earth_at(5, 5, 10.0), high, kBack}).has_errors());
+  EXPECT_FALSE(change(before, {kUp, higher, kBack}).has_errors()) << "the same one, changed";
+  EXPECT_TRUE(change(before, {kUp, high, high, kBack}).has_errors())
+      << "another one with the same text is not forgiven";
+  EXPECT_FALSE(change(before, {kUp, earth_at(10, 0, 40.0), kBack}).has_errors()) << "mended";
+  const MissionCheck other = change(before, {high, kBack});
+  EXPECT_TRUE(other.has_errors()) << "an error of another kind: no take-off";
+  // What is too long can be made shorter, although its numbers change.
+  params = {};
+  params.endurance = 30.0;
+  const std::vector<MissionItem> longer{kUp, hold_for(60), hold_for(60), kBack};
+  EXPECT_FALSE(change(longer, {kUp, hold_for(60), kBack}).has_errors());
+}
+
 TEST(MissionCheck, AnyMissionIsCheckedTheSameTwice) {
   MissionMaker maker(6);
   const OccupancyGrid grid = room();
