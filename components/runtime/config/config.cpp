@@ -131,7 +131,7 @@ Config Config::with(const std::string& key, const std::string& value) const {
   file->known.clear();
   file->entries.clear();
   Config copy(file, path_, *node_);
-  copy.set(join_path(path_, key), value);
+  copy.set(key, value);
   return copy;
 }
 
