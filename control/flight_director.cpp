@@ -34,9 +34,8 @@ bool usable(const ReferenceLimits& limits) {
   return FlightReference::move({}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.0, limits).ok();
 }
 
-}  // namespace
-
-FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {
+/// Throws std::invalid_argument where a parameter cannot be used.
+void check(const FlightDirector::Params& params) {
   const bool fine = usable(params.takeoff) && usable(params.landing) && usable(params.braking) &&
                     positive({params.landing_depth, params.landing_resistance, params.ground_range,
                               params.ground_height, params.plan_gap, params.arrival_distance,
@@ -68,6 +67,18 @@ FlightDirector::FlightDirector(const Params& params) : params_(params), machine_
         "band from 0 to 0.5 and below takeover, which is at most 1, the fence not negative, "
         "batteries from 0 to 1 with critical_battery <= low_battery");
   }
+}
+
+}  // namespace
+
+FlightDirector::FlightDirector(const Params& params) : params_(params), machine_(params.modes) {
+  check(params);
+}
+
+void FlightDirector::set_params(const Params& params) {
+  check(params);
+  machine_.set_params(params.modes);
+  params_ = params;
 }
 
 void FlightDirector::set_estimate(Time time, const RigidBodyState& state, double position_sigma,

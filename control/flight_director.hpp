@@ -158,6 +158,9 @@ class FlightDirector {
 
   /// Throws std::invalid_argument where a parameter cannot be used.
   explicit FlightDirector(const Params& params);
+  /// From now on; what is flown already stays as it is. Throws std::invalid_argument, with nothing
+  /// changed.
+  void set_params(const Params& params);
 
   /// Sigmas are those of the worst axis of the position [m] and of the heading [rad].
   void set_estimate(Time time, const RigidBodyState& state, double position_sigma,

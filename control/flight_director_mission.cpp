@@ -17,6 +17,8 @@ using Navigation = Situation::Navigation;
 
 /// Farther than anything that is flown to indoors [m].
 constexpr double kFarthestWaypoint = 1e4;
+/// As of the items of an uploaded mission [m/s].
+constexpr double kLeastSpeed = 0.1;
 /// Plans beyond these are not for flying: a vehicle of this kind cannot follow them.
 constexpr double kFastestPlan = 20.0;        // [m/s]
 constexpr double kSharpestPlan = 40.0;       // [m/s^2]
@@ -52,7 +54,7 @@ std::string FlightDirector::waypoint_problem(const MissionWaypoint& waypoint) co
   const Eigen::Vector3d& position = waypoint.position;
   const bool usable = position.allFinite() && position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
                       std::isfinite(waypoint.yaw.value_or(0.0)) &&
-                      waypoint.speed.value_or(1.0) > 0.0;
+                      waypoint.speed.value_or(kLeastSpeed) >= kLeastSpeed;
   return usable ? fence_problem(position) : "not a place that can be flown to";
 }
 

@@ -47,6 +47,8 @@ class MissionRunner {
   };
 
   explicit MissionRunner(const Params& params) : params_(params) {}
+  /// From the next item on.
+  void set_params(const Params& params) { params_ = params; }
   MissionRunner() : MissionRunner(Params{}) {}
 
   /// Takes a mission in place of the one that there is. An error where one is being flown, or an

@@ -253,7 +253,11 @@ const std::vector<EventRule>& ModeMachine::event_rules() {
   return rules;
 }
 
-ModeMachine::ModeMachine(const Params& params) : params_(params) {
+ModeMachine::ModeMachine(const Params& params) {
+  set_params(params);
+}
+
+void ModeMachine::set_params(const Params& params) {
   const bool fine = std::isfinite(params.max_altitude) && params.min_altitude > 0.0 &&
                     params.max_altitude >= params.min_altitude &&
                     params.landed_confirmation >= 0.0 && params.landed_confirmation <= 60.0;
@@ -262,6 +266,7 @@ ModeMachine::ModeMachine(const Params& params) : params_(params) {
         "modes: altitudes must be positive with min_altitude <= max_altitude, landed_confirmation "
         "from 0 to 60 s");
   }
+  params_ = params;
 }
 
 /// What stands against a request that the table would grant.

@@ -166,6 +166,8 @@ class ModeMachine {
 
   /// Throws std::invalid_argument where a parameter cannot be used.
   explicit ModeMachine(const Params& params);
+  /// Throws std::invalid_argument, with nothing changed.
+  void set_params(const Params& params);
   ModeMachine() : ModeMachine(Params{}) {}
 
   /// Accepts or refuses, with a reason that a pilot understands:

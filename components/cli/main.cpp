@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   swiftlet::add_run(app);
   swiftlet::add_launch(app);
   swiftlet::add_trajectory(app);
-  swiftlet::add_gcs_commands(*app.add_subcommand("gcs", "Ground station: commands and status"));
+  swiftlet::add_gcs_commands(*app.add_subcommand("gcs", "The ground station: a screen, and verbs for scripts"));
   CLI::App* bag = app.add_subcommand("bag", "Recordings in MCAP");
   bag->require_subcommand(1);
   swiftlet::add_bag_commands(*bag);

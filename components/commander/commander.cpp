@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "components/commander/attendance.hpp"
+#include "components/commander/authority_desk.hpp"
 #include "components/commander/director_params.hpp"
 #include "components/commander/limits_message.hpp"
 #include "components/commander/mission_desk.hpp"
@@ -60,6 +61,7 @@ class Commander : public Component {
       : Component(context),
         params_(read_director_params(parameters())),
         director_(params_),
+        authority_(AuthorityDesk::read_lease(parameters())),
         desk_(runner_params(params_)),
         limits_message_(make_limits(parameters(), params_, runner_params(params_))) {
     setpoint_ = advertise(topic::setpoint);
@@ -95,7 +97,7 @@ class Commander : public Component {
     subscribe(
         topic::manual_control,
         [this](const swiftlet_msgs::msg::ManualControl& sticks) {
-          director_.set_sticks(from_msg(sticks), now());
+          if (authority_.admits(sticks, now())) director_.set_sticks(from_msg(sticks), now());
         },
         Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
@@ -123,13 +125,13 @@ class Commander : public Component {
         },
         Need::kOptional);
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
-      answer(command.id(), [&] { return carry_out(command); });
+      answer(asked(command), [&] { return carry_out(command, command.station()); });
     });
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
-      answer(mission.id(), [&] { return carry_out(mission); });
+      answer(asked(mission), [&] { return carry_out(mission, mission.station()); });
     });
     subscribe(topic::mission_upload, [this](const swiftlet_msgs::msg::MissionPart& part) {
-      if (active()) desk_.hear(part, director_);
+      if (active()) hear(part);
     });
     subscribe(topic::mission_fetch, [this](const swiftlet_msgs::msg::MissionFetch& fetch) {
       if (!active()) return;
@@ -144,9 +146,9 @@ class Commander : public Component {
         Need::kOptional);
     subscribe(topic::goal_pose, [this](const geometry_msgs::msg::PoseStamped& goal) {
       if (has_stamp(goal)) {
-        answer(goal_id(goal), [&] { return carry_out(goal); });
+        answer(asked(goal), [&] { return carry_out(goal); });
       } else if (active()) {
-        tell(acknowledgement(goal_id(goal), carry_out(goal)));
+        tell(acknowledgement(asked(goal), carry_out(goal)));
       }
     });
     subscribe(topic::commander_state, [this](const swiftlet_msgs::msg::CommanderState& state) {
@@ -171,6 +173,7 @@ class Commander : public Component {
     subscribe(
         topic::gcs_heartbeat,
         [this](const swiftlet_msgs::msg::ComponentStatus& station) {
+          authority_.hear(station, now());
           if (station.active()) {
             director_.set_link_heard(now());
           } else {
@@ -184,9 +187,32 @@ class Commander : public Component {
     every(kTick, [this](Time now) {
       if (active()) tick(now);
     });
+    set_changeable_parameters(
+        {{"fence_radius", "fence_height", "low_battery", "critical_battery", "link_timeout",
+          "on_fence", "on_low_battery", "on_critical_battery", "on_link_loss", "obstacle_distance",
+          "stick_speed", "stick_climb_speed", "stick_turn_rate", "gps_altitude", "gps_speed",
+          "landing_speed", "plan_timeout", "exploration_timeout"},
+         {"min_altitude", "max_altitude", "takeoff_speed", "braking_acceleration",
+          "arrival_distance", "estimate_sigma_max", "heading_sigma_to_arm", "settling_to_arm",
+          "min_battery_percentage", "stick_dead_band", "takeover", "vehicle_radius", "endurance",
+          "control_lease"},
+         [this] { return director_.state().machine.mode != Mode::kGrounded; },
+         [this](const Config& changed) { apply(changed); }});
   }
 
  private:
+  void apply(const Config& changed) {
+    const FlightDirector::Params params = read_director_params(changed);
+    auto limits = make_limits(changed, params, runner_params(params));
+    const Duration lease = AuthorityDesk::read_lease(changed);
+    director_.set_params(params);
+    desk_.set_params(runner_params(params));
+    authority_.set_lease(lease);
+    params_ = params;
+    limits_message_ = std::move(limits);
+    if (active()) publish_limits(now());
+  }
+
   static MissionRunner::Params runner_params(const FlightDirector::Params& params) {
     MissionRunner::Params runner;
     runner.gps_altitude = params.gps_altitude;
@@ -199,7 +225,28 @@ class Commander : public Component {
     }
   }
 
+  /// What a station commands, where it has control or can have it.
+  template <class Command>
+  Result<Acceptance> carry_out(const Command& command, const std::string& station) {
+    const Status admitted = authority_.admit(station, now());
+    if (!admitted.ok()) {
+      return Error{asked(command).name() + " refused: " + admitted.error().reason};
+    }
+    return carry_out(command);
+  }
+
+  /// Of an upload.
+  void hear(const swiftlet_msgs::msg::MissionPart& part) {
+    const Status admitted = authority_.admit(part.station(), now());
+    if (admitted.ok()) {
+      desk_.hear(part, director_);
+    } else {
+      desk_.refuse(part, "upload refused: " + admitted.error().reason);
+    }
+  }
+
   Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
+    if (const auto result = authority_.carry_out(command, now())) return *result;
     using swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;
     if (auto result = desk_.carry_out(command, director_, origin_.origin(), now())) {
       if (result->ok() && command.command() == MISSION_START) mission_id_ = desk_.id();
@@ -238,7 +285,9 @@ class Commander : public Component {
     if (fix && position_) origin_.add(fix->position, fix->sigma, *position_);
   }
 
-  /// A mission of one waypoint. Who sends it hears no acknowledgement: a refusal is in the status.
+  /// A mission of one waypoint, from RViz and its like, which have no name: it counts as the word
+  /// of the station that has control. Who sends it hears no acknowledgement: a refusal is in the
+  /// status.
   Result<Acceptance> carry_out(const geometry_msgs::msg::PoseStamped& goal) {
     const auto waypoint = waypoint_of(goal, director_.altitude(now()));
     Result<Acceptance> result = waypoint.ok()
@@ -254,24 +303,22 @@ class Commander : public Component {
 
   /// Carries a command out once, and acknowledges it each time it comes.
   template <class CarryOut>
-  void answer(const std::string& id, CarryOut carry_out) {
+  void answer(const swiftlet_msgs::msg::CommandAck& asked, CarryOut carry_out) {
     if (!active()) return;
     for (const auto& known : answered_) {
-      if (known.id() == id) {
+      if (known.id() == asked.id()) {
         ack_.publish(known);
         return;
       }
     }
-    answered_.push_back(acknowledgement(id, carry_out()));
+    answered_.push_back(acknowledgement(asked, carry_out()));
     if (answered_.size() > kRememberedCommands) answered_.pop_front();
     tell(answered_.back());
   }
 
-  swiftlet_msgs::msg::CommandAck acknowledgement(const std::string& id,
+  swiftlet_msgs::msg::CommandAck acknowledgement(swiftlet_msgs::msg::CommandAck ack,
                                                  const Result<Acceptance>& result) {
-    swiftlet_msgs::msg::CommandAck ack;
     ack.header(make_header(now(), frame::kMap));
-    ack.id(id);
     ack.accepted(result.ok());
     if (!result.ok()) {
       ack.reason(result.error().reason);
@@ -288,6 +335,7 @@ class Commander : public Component {
 
   void tick(Time now) {
     check_others(now);
+    tell_control(now);
     const FlightDirector::Directive directive = director_.tick(now);
     desk_.tick(director_, origin_.origin(), now);
     swiftlet_msgs::msg::Setpoint setpoint;
@@ -314,10 +362,7 @@ class Commander : public Component {
       command.open(*desk_.claw_open());
       claw_.publish(command);
     }
-    if (ticks_ % kLimitsEvery == 0) {
-      limits_message_.header(make_header(now, frame::kMap));
-      limits_.publish(limits_message_);
-    }
+    if (ticks_ % kLimitsEvery == 0) publish_limits(now);
     if (ticks_ % kStatusEvery != 0) return;
     const swiftlet_msgs::msg::MissionState state = desk_.state(now);
     const bool changed = differs(state, told_);
@@ -325,6 +370,20 @@ class Commander : public Component {
     if (changed) publish_state(now);
     if (changed || ticks_ % kMissionEvery == 0) mission_state_.publish(state);
     told_ = state;
+  }
+
+  void publish_limits(Time now) {
+    limits_message_.header(make_header(now, frame::kMap));
+    limits_.publish(limits_message_);
+  }
+
+  void tell_control(Time now) {
+    const std::string& holder = authority_.holder(now);
+    if (holder == last_holder_) return;
+    log()->info("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
+    last_holder_ = holder;
+    publish_state(now);
+    publish_status(now);
   }
 
   void check_others(Time now) {
@@ -349,6 +408,7 @@ class Commander : public Component {
     message.header(make_header(now, frame::kMap));
     message.mission().id(mission_id_);
     desk_.write(message);
+    authority_.write(message);
     message.answered().assign(answered_.begin(), answered_.end());
     state_.publish(message);
   }
@@ -356,6 +416,7 @@ class Commander : public Component {
   void restore(const swiftlet_msgs::msg::CommanderState& message) {
     director_.restore(from_msg(message));
     desk_.restore(message);
+    authority_.restore(message);
     mission_id_ = message.mission().id();
     answered_.assign(message.answered().begin(), message.answered().end());
     restored_ = true;
@@ -384,6 +445,7 @@ class Commander : public Component {
     message.waypoint_count(static_cast<std::uint32_t>(status.waypoint_count));
     message.mission_done(status.mission_done);
     message.takeoff_point(to_point(status.home));
+    message.station(authority_.holder(now));
     status_.publish(message);
   }
 
@@ -391,6 +453,8 @@ class Commander : public Component {
   FlightDirector director_;
   FlightDirector::State shared_;  // as the standby knows it
   bool restored_ = false;
+  AuthorityDesk authority_;
+  std::string last_holder_;  // that was told
   MissionDesk desk_;
   swiftlet_msgs::msg::FlightLimits limits_message_;
   swiftlet_msgs::msg::MissionState told_;  // what ground stations were told last

@@ -76,9 +76,20 @@ void MissionDesk::hear(const swiftlet_msgs::msg::MissionPart& part,
   end_upload();
 }
 
+void MissionDesk::refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason) {
+  if (std::find(ended_.begin(), ended_.end(), part.id()) != ended_.end() || uploads()) return;
+  upload_ = part.id();
+  refusal_ = reason;
+  end_upload();
+}
+
+bool MissionDesk::uploads() const {
+  return !upload_.empty() && (ended_.empty() || ended_.back() != upload_);
+}
+
 /// No part of the last upload is heard any more.
 void MissionDesk::end_upload() {
-  if (upload_.empty() || (!ended_.empty() && ended_.back() == upload_)) return;
+  if (!uploads()) return;
   ended_.push_back(upload_);
   if (ended_.size() > kRememberedUploads) ended_.pop_front();
 }

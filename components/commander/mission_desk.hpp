@@ -23,7 +23,10 @@ class MissionDesk {
   explicit MissionDesk(const MissionRunner::Params& params)
       : runner_(params), inbox_(params.most_items) {}
 
+  void set_params(const MissionRunner::Params& params) { runner_.set_params(params); }
   void hear(const swiftlet_msgs::msg::MissionPart& part, const FlightDirector& director);
+  /// An upload of who may not. One that is under way is not disturbed: then nothing is said.
+  void refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason);
   std::vector<swiftlet_msgs::msg::MissionPart> answer(const swiftlet_msgs::msg::MissionFetch& fetch,
                                                       Time now) const;
   void hear(const swiftlet_msgs::msg::ClawState& claw, Time now);
@@ -50,6 +53,7 @@ class MissionDesk {
 
  private:
   Status take(const FlightDirector& director);
+  bool uploads() const;  // some of the last upload is missing
   void end_upload();
   MissionInbox::Items messages() const;
 

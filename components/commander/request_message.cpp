@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "components/command_name.hpp"
 #include "components/commander/mission_message.hpp"
 #include "components/conversions.hpp"
 #include "components/topics.hpp"
@@ -16,6 +17,15 @@ namespace {
 
 /// Rounded in single precision, a unit quaternion is still nearer to one than this.
 constexpr double kNotUnit = 0.01;
+
+swiftlet_msgs::msg::CommandAck named(const std::string& id, const std::string& name,
+                                     const std::string& station) {
+  swiftlet_msgs::msg::CommandAck ack;
+  ack.id(id);
+  ack.name(name);
+  ack.station(station);
+  return ack;
+}
 
 }  // namespace
 
@@ -75,6 +85,21 @@ std::string goal_id(const geometry_msgs::msg::PoseStamped& goal) {
   const auto& stamp = goal.header().stamp();
   return fmt::format("goal_pose {}.{:09} {:08x}", stamp.sec(), stamp.nanosec(),
                      checksum(to_cdr(goal)));
+}
+
+swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::ModeCommand& command) {
+  return named(command.id(), command_name(command.command()), command.station());
+}
+
+swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::Mission& mission) {
+  const std::size_t count = mission.waypoints().size();
+  const char* one = is_global(mission) ? "gps" : "goto";
+  return named(mission.id(), count == 1 ? one : fmt::format("{} waypoints", count),
+               mission.station());
+}
+
+swiftlet_msgs::msg::CommandAck asked(const geometry_msgs::msg::PoseStamped& goal) {
+  return named(goal_id(goal), "goal_pose", "");
 }
 
 bool has_stamp(const geometry_msgs::msg::PoseStamped& goal) {

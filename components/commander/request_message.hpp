@@ -29,4 +29,10 @@ std::string goal_id(const geometry_msgs::msg::PoseStamped& goal);
 /// from one that comes a second time.
 bool has_stamp(const geometry_msgs::msg::PoseStamped& goal);
 
+/// The answer to a command, with its identity, its name and its station; what became of it is still
+/// to be said.
+swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::ModeCommand& command);
+swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::Mission& mission);
+swiftlet_msgs::msg::CommandAck asked(const geometry_msgs::msg::PoseStamped& goal);
+
 }  // namespace swiftlet

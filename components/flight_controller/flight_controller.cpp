@@ -89,6 +89,17 @@ class FlightController : public Component {
     subscribe(topic::imu0, [this](const sensor_msgs::msg::Imu& imu) {
       if (++samples_ % params_.control_every == 0) control(imu);
     });
+    set_changeable_parameters(
+        {{"position_gain", "velocity_gain", "attitude_gain", "rate_gain", "integral_gain",
+          "max_tilt", "landing_speed", "braking_acceleration"},
+         {"setpoint_timeout", "estimate_timeout", "inertial_timeout", "velocity_timeout",
+          "abandoned_timeout", "ground_range", "sinking_thrust_to_weight"},
+         [this] { return behaviour_ != FlightLoop::Behaviour::kMotorsOff; },
+         [this](const Config& changed) {
+           const Params params = read_params(changed);
+           loop_.set_params(params.loop);
+           params_ = params;
+         }});
   }
 
  private:

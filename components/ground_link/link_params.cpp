@@ -31,7 +31,8 @@ std::vector<OutwardTopic> standard_outward() {
       {topic::diagnostics.name, 0.0, 0.0, true},     {topic::guard_status.name, 2.0, 0.0, true},
       {topic::vehicle_limits.name, 0.5, 0.0, true},  {topic::battery.name, 1.0, 0.0, false},
       {topic::odometry.name, 5.0, 0.0, false},       {topic::gps_fix.name, 1.0, 0.0, false},
-      {topic::claw_state.name, 2.0, 0.0, false}};
+      {topic::claw_state.name, 2.0, 0.0, false},     {topic::telemetry.name, 1.0, 0.0, false},
+      {topic::path.name, 1.0, 0.0, false},           {topic::map.name, 0.2, 0.1, false}};
 }
 
 OutwardTopic read_outward(const Config& section) {

@@ -117,13 +117,14 @@ void add_param_commands(CLI::App& app) {
     auto options = std::make_shared<Options>();
     return std::make_pair(add_verb(*param, name, what, options, run), options);
   };
-  const auto [list_verb, list_options] = add("list", "Values, limits, which may change live", list);
+  const auto [list_verb, list_options] = add("list", "Values, limits, and which may be set", list);
   list_verb->add_option("component", list_options->query.component, "Else all");
   const auto [get_verb, get_options] = add("get", "The value of one", get);
   get_verb->add_option("component", get_options->query.component, "For instance planner")
       ->required();
   get_verb->add_option("name", get_options->query.name, "For instance max_speed")->required();
-  const auto [set_verb, set_options] = add("set", "Change one that may change live", set);
+  const auto [set_verb, set_options] =
+      add("set", "Set one while its component runs; param list says which", set);
   set_verb->add_option("component", set_options->query.component, "For instance planner")
       ->required();
   set_verb->add_option("name", set_options->query.name, "For instance max_speed")->required();

@@ -14,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using swiftlet_msgs::msg::Parameter;
+using namespace swiftlet_msgs::msg::Parameter_Constants;
 
 /// Mappings in the order in which their keys came.
 struct Mapping {
@@ -55,6 +56,12 @@ void write(const Mapping& mapping, std::size_t indent, std::string& text) {
   }
 }
 
+/// When it may be set.
+const char* changes_text(const Parameter& parameter) {
+  if (parameter.changes() == AT_ANY_TIME) return "at any time";
+  return parameter.changes() == ON_GROUND ? "on ground" : "at start";
+}
+
 bool same_values(const std::vector<Parameter>& a, const std::vector<Parameter>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Parameter& one, const Parameter& other) {
@@ -69,10 +76,10 @@ std::string parameters_text(const ParameterReplies& replies) {
   for (const auto& reply : replies) {
     text += fmt::format("{} ({}):\n", reply.component_name(), reply.process());
     for (const Parameter& parameter : reply.parameters()) {
-      text +=
-          fmt::format("  {:32} {:24} {}{}{}\n", parameter.name(), parameter.value(),
-                      parameter.type(), parameter.limits().empty() ? "" : ", " + parameter.limits(),
-                      parameter.live() ? ", live" : "");
+      text += fmt::format(
+          "  {:32} {:24} {}{}{}\n", parameter.name(), parameter.value(), parameter.type(),
+          parameter.limits().empty() ? "" : ", " + parameter.limits(),
+          parameter.changes() == AT_START ? "" : fmt::format(", {}", changes_text(parameter)));
     }
     if (reply.parameters().empty()) text += "  none\n";
   }
@@ -88,7 +95,7 @@ Json parameters_json(const ParameterReplies& replies) {
                             {"type", parameter.type()},
                             {"value", parameter.value()},
                             {"limits", parameter.limits()},
-                            {"live", parameter.live()}});
+                            {"changes", changes_text(parameter)}});
     }
     array.push_back({{"component", reply.component_name()},
                      {"process", reply.process()},

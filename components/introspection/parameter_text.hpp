@@ -12,7 +12,7 @@ namespace swiftlet {
 
 using ParameterReplies = std::vector<swiftlet_msgs::msg::ParameterReply>;
 
-/// A block an instance, a line a parameter: name, value, type, limits, whether it is live.
+/// A block an instance, a line a parameter: name, value, type, limits, when it may be set.
 std::string parameters_text(const ParameterReplies& replies);
 nlohmann::ordered_json parameters_json(const ParameterReplies& replies);
 

@@ -57,7 +57,7 @@ class Joystick : public Component {
   void advance(Time now) {
     if (file_ < 0 && now >= next_try_) open(now);
     if (file_ < 0 || !read_events()) return;
-    manual_control_.publish(to_msg(axes_.sticks(), now));
+    manual_control_.publish(to_msg(axes_.sticks(), now, ""));
   }
 
   void open(Time now) {

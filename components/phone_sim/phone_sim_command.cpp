@@ -170,6 +170,7 @@ void add_phone_sim(CLI::App& app) {
   verb->add_option("--rate", options->rate_hz, "Poses a second [30]")->check(within(0.1, 500.0));
   verb->add_flag("--json", options->json, "Send JSON with a checksum, not the binary form");
   verb->add_option("--seed", options->seed, "Decides the errors, and the frame of the phone")
+      ->check(whole_within(0, UINT32_MAX))
       ->capture_default_str();
   verb->add_option("--duration", options->duration, "Seconds; until interrupted without")
       ->check(within(0.0, 1e6));

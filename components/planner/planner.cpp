@@ -87,6 +87,12 @@ class Planner : public Component {
       if (!active()) adopt(answer);
     });
     every(kTick, [this](Time) { plan(); });
+    set_changeable_parameters(
+        {{"max_speed", "max_acceleration", "margin", "preferred_clearance", "clearance_weight",
+          "unknown_weight", "unknown_is_free", "samples", "improvement"},
+         {},
+         nullptr,
+         [this](const Config& changed) { replanner_.set_params(read_params(changed)); }});
   }
 
  private:

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 
+#include "components/command_name.hpp"
 #include "components/commander/request_message.hpp"
 #include "components/conversions.hpp"
+#include "components/mission_state_name.hpp"
 #include "components/mode_message.hpp"
 
 namespace swiftlet {
@@ -69,6 +71,8 @@ void DecisionReader::note_mode(double time, const swiftlet_msgs::msg::VehicleSta
 
 void DecisionReader::note_mission(double time, const swiftlet_msgs::msg::VehicleStatus& message) {
   if (!status_ || message.mission_id().empty()) return;
+  // Of an uploaded mission, which tells of itself, each run of waypoints is done once.
+  if (uploaded_ && uploaded_->id() == message.mission_id()) return;
   if (message.waypoint() != status_->waypoint() && message.waypoint() > 0) {
     story_.events.add(time, Level::kInfo, "mission",
                       fmt::format("on the way to waypoint {} of {}", message.waypoint(),
@@ -81,9 +85,7 @@ void DecisionReader::note_mission(double time, const swiftlet_msgs::msg::Vehicle
 
 void DecisionReader::on_command(double time, const swiftlet_msgs::msg::ModeCommand& message) {
   const auto request = request_of(message);
-  std::string text = request ? to_string(request->kind)
-                             : fmt::format("command {}, which this program does not know",
-                                           static_cast<int>(message.command()));
+  std::string text = request ? to_string(request->kind) : command_name(message.command());
   if (request && request->kind == Request::Kind::kTakeoff) {
     text += fmt::format(" to {:.2f} m", message.altitude());
   }
@@ -94,8 +96,9 @@ void DecisionReader::on_command(double time, const swiftlet_msgs::msg::ModeComma
 void DecisionReader::on_ack(double time, const swiftlet_msgs::msg::CommandAck& message) {
   if (!answered_.insert(message.id()).second) return;
   const auto asked = asked_.find(message.id());
-  const std::string what =
-      asked == asked_.end() ? fmt::format("command '{}'", message.id()) : asked->second;
+  const std::string what = asked != asked_.end()    ? asked->second
+                           : message.name().empty() ? fmt::format("command '{}'", message.id())
+                                                    : message.name();
   story_.events.add(time, message.accepted() ? Level::kInfo : Level::kWarning, "command",
                     what + (message.accepted() ? ": accepted" : ": refused") +
                         because(message.accepted() ? "" : message.reason()));
@@ -116,6 +119,20 @@ void DecisionReader::on_mission(double time, const swiftlet_msgs::msg::Mission& 
                 {time, from_msg(waypoint.position()).head<2>(), std::to_string(number)});
     }
   }
+}
+
+void DecisionReader::on_uploaded(double time, const swiftlet_msgs::msg::MissionState& message) {
+  const bool is_new = !uploaded_ || uploaded_->id() != message.id() ||
+                      uploaded_->state() != message.state() || uploaded_->item() != message.item();
+  const bool is_something = message.count() > 0 || (uploaded_ && uploaded_->count() > 0);
+  if (is_new && is_something) {
+    story_.events.add(time, Level::kInfo, "mission", mission_state_text(message));
+  }
+  if (message.upload_refused() &&
+      (!uploaded_ || uploaded_->upload_reason() != message.upload_reason())) {
+    story_.events.add(time, Level::kWarning, "mission", message.upload_reason());
+  }
+  uploaded_ = message;
 }
 
 void DecisionReader::on_goal(double time, const geometry_msgs::msg::PoseStamped& message) {

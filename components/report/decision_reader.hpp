@@ -24,6 +24,7 @@ class DecisionReader {
   void on_command(double time, const swiftlet_msgs::msg::ModeCommand& message);
   void on_ack(double time, const swiftlet_msgs::msg::CommandAck& message);
   void on_mission(double time, const swiftlet_msgs::msg::Mission& message);
+  void on_uploaded(double time, const swiftlet_msgs::msg::MissionState& message);
   void on_goal(double time, const geometry_msgs::msg::PoseStamped& message);
   void on_guard(double time, const swiftlet_msgs::msg::GuardStatus& message,
                 const std::optional<Eigen::Vector3d>& position);
@@ -47,6 +48,7 @@ class DecisionReader {
   std::map<std::string, std::string> asked_;  // what a command asked for, by its id
   std::set<std::string> answered_;
   std::set<std::string> missions_;
+  std::optional<swiftlet_msgs::msg::MissionState> uploaded_;
   bool guard_acts_ = false;
   std::string planner_failure_;
   std::optional<std::uint8_t> exploration_;

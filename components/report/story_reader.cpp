@@ -109,6 +109,7 @@ class StoryReader {
     on(topic::mode, [this](double t, const auto& m) { decisions_.on_command(t, m); });
     on(topic::mode_ack, [this](double t, const auto& m) { decisions_.on_ack(t, m); });
     on(topic::waypoints, [this](double t, const auto& m) { decisions_.on_mission(t, m); });
+    on(topic::mission_state, [this](double t, const auto& m) { decisions_.on_uploaded(t, m); });
     on(topic::goal, [this](double t, const auto& m) { decisions_.on_goal(t, m); });
     on(topic::trajectory, [this](double t, const auto& m) { decisions_.on_trajectory(t, m); });
     on(topic::exploration, [this](double t, const auto& m) { decisions_.on_exploration(t, m); });

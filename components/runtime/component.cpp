@@ -78,12 +78,6 @@ void Component::halt_at(Time time) {
   mailbox_->call_at(time, [this](Time) { halt(); });
 }
 
-void Component::set_live_parameters(std::vector<std::string> names,
-                                    std::function<void(const Config&)> apply) {
-  live_parameters_ = std::move(names);
-  apply_parameters_ = std::move(apply);
-}
-
 void Component::sample_rates(Time now) {
   for (SubscriptionTask* input : needed_) input->sample_rate(now);
 }

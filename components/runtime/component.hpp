@@ -19,6 +19,7 @@
 #include "components/runtime/log.hpp"
 #include "components/runtime/message.hpp"
 #include "components/runtime/qos.hpp"
+#include "components/runtime/supervision/changeable_parameters.hpp"
 #include "components/runtime/supervision/faults.hpp"
 #include "components/runtime/supervision/input_watch.hpp"
 #include "components/runtime/topic.hpp"
@@ -144,9 +145,10 @@ class Component {
   /// How often others learn that it is alive: three times of it pass before another instance takes
   /// over. Longer than the longest callback. Only in the constructor.
   void set_alive_period(Duration period) { alive_period_ = period; }
-  /// Parameters that may change while it runs; see ParameterServer. Only in the constructor.
-  void set_live_parameters(std::vector<std::string> names,
-                           std::function<void(const Config& changed)> apply);
+  /// Parameters that may be set while it runs. Only in the constructor.
+  void set_changeable_parameters(ChangeableParameters parameters) {
+    changeable_parameters_ = std::move(parameters);
+  }
   /// What is wrong with its inputs at this moment, and its obstacle.
   std::vector<InputWatch::Problem> problems(Time now) const;
 
@@ -256,8 +258,7 @@ class Component {
   class GatedWriter;
   std::shared_ptr<Gate> gate_;  // shared with the writers
   Duration alive_period_ = std::chrono::milliseconds(20);
-  std::vector<std::string> live_parameters_;
-  std::function<void(const Config&)> apply_parameters_;
+  ChangeableParameters changeable_parameters_;
   std::vector<SubscriptionTask*> needed_;
   std::unique_ptr<Mailbox> mailbox_;
   std::vector<std::unique_ptr<SubscriptionTask>> subscriptions_;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "components/command_name.hpp"
 #include "components/conversions.hpp"
 #include "components/runtime/supervision/staleness.hpp"
 #include "components/runtime/utf8.hpp"
@@ -171,6 +172,8 @@ class SerialLink : public Component {
     CommandAck refusal;
     refusal.header(make_header(now(), frame::kMap));
     refusal.id(command.id());
+    refusal.name(command_name(command.command()));
+    refusal.station(command.station());
     refusal.reason("serial link: " + offered.error().reason);
     ack_.publish(refusal);
   }

@@ -15,6 +15,7 @@ namespace mode = swiftlet_msgs::msg::VehicleStatus_Constants;
 namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
 
 constexpr Duration kTick = 50ms;
+constexpr char kStation[] = "pilot";
 constexpr Duration kResend = 500ms;
 /// A command that is not acknowledged within so long has failed.
 constexpr Duration kAckTimeout = 5s;
@@ -154,7 +155,9 @@ void Pilot::begin(Step step) {
 void Pilot::send(Time now) {
   sent_ = now;
   if (step_ == Step::kMission && !scenario_.mission.explore) {
-    waypoints_.publish(make_mission(now, command_id(), waypoints_of(scenario_)));
+    auto mission = make_mission(now, command_id(), waypoints_of(scenario_));
+    mission.station(kStation);
+    waypoints_.publish(mission);
     return;
   }
   swiftlet_msgs::msg::ModeCommand message;
@@ -165,6 +168,7 @@ void Pilot::send(Time now) {
                   : step_ == Step::kMission ? command::EXPLORE
                                             : command::LAND);
   message.altitude(scenario_.mission.takeoff_altitude);
+  message.station(kStation);
   mode_.publish(message);
 }
 

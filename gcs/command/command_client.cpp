@@ -9,10 +9,10 @@ constexpr Duration kTick = std::chrono::milliseconds(10);
 
 }  // namespace
 
-CommandClient::CommandClient(const ComponentContext& context, const GroundCommand& command,
-                             Duration patience)
+CommandClient::CommandClient(const ComponentContext& context, const std::string& station,
+                             const GroundCommand& command, Duration patience)
     : Component(context),
-      sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain}) {
+      sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain, station}) {
   subscribe(topic::mode_ack,
             [this](const swiftlet_msgs::msg::CommandAck& ack) { sender_.hear(ack); });
   subscribe(topic::odometry,

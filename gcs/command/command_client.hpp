@@ -6,10 +6,12 @@
 
 namespace swiftlet {
 
-/// Sends one command until it is acknowledged or `patience` is over; then it ends the run.
+/// Sends one command of a station until it is acknowledged or `patience` is over; then it ends the
+/// run.
 class CommandClient : public Component {
  public:
-  CommandClient(const ComponentContext& context, const GroundCommand& command, Duration patience);
+  CommandClient(const ComponentContext& context, const std::string& station,
+                const GroundCommand& command, Duration patience);
 
   const CommandOutcome& outcome() const { return outcome_; }
   const std::string& command_id() const { return sender_.id(); }

@@ -64,14 +64,13 @@ void CommandSender::send(Time now) {
   if (command_->is_mission()) {
     if (topics_.waypoints.matched_readers() == 0) return;
     if (command_->go_to_global) {
-      topics_.waypoints.publish(make_mission(now, id_, {*command_->go_to_global}));
+      send(make_mission(now, id_, {*command_->go_to_global}));
     } else {
       auto& place = *command_->go_to;
       if (!place.z && !height_) return;
       // The height at the first sending, so that each repetition is the same mission.
       if (!place.z) place.z = height_;
-      topics_.waypoints.publish(
-          make_mission(now, id_, {MissionWaypoint{{place.x, place.y, *place.z}, std::nullopt}}));
+      send(make_mission(now, id_, {MissionWaypoint{{place.x, place.y, *place.z}, std::nullopt}}));
     }
   } else {
     if (topics_.mode.matched_readers() == 0) return;
@@ -81,9 +80,16 @@ void CommandSender::send(Time now) {
     message.command(command_->command);
     message.altitude(command_->altitude);
     message.item(command_->item);
+    message.station(topics_.station);
+    message.successor(command_->successor);
     topics_.mode.publish(message);
   }
   next_send_ = now + kResend;
+}
+
+void CommandSender::send(swiftlet_msgs::msg::Mission mission) {
+  mission.station(topics_.station);
+  topics_.waypoints.publish(mission);
 }
 
 }  // namespace swiftlet

@@ -19,6 +19,7 @@ struct GroundCommand {
   std::uint8_t command = 0;  ///< of ModeCommand, where it is no mission
   double altitude = 0.0;     ///< of TAKEOFF [m]
   std::uint32_t item = 0;    ///< of MISSION_START; 0: where it was paused, or the first
+  std::string successor;     ///< of CONTROL_GIVE: a station
   struct Place {
     double x = 0.0;           ///< [m]
     double y = 0.0;           ///< [m]
@@ -43,7 +44,8 @@ class CommandSender {
   struct Topics {
     Publisher<swiftlet_msgs::msg::ModeCommand> mode;
     Publisher<swiftlet_msgs::msg::Mission> waypoints;
-    int domain = 0;  ///< for who looks for the vehicle
+    int domain = 0;       ///< for who looks for the vehicle
+    std::string station;  ///< that commands
   };
   /// From the start of a program to its end it may take two seconds.
   static constexpr Duration kTimeout = std::chrono::milliseconds(1500);
@@ -67,6 +69,7 @@ class CommandSender {
 
  private:
   void send(Time now);
+  void send(swiftlet_msgs::msg::Mission mission);
   std::string why_no_answer() const;
 
   Topics topics_;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "components/mission_state_name.hpp"
 #include "components/mode_message.hpp"
-#include "gcs/command/mission_state_name.hpp"
 
 namespace swiftlet {
 namespace {
@@ -76,6 +76,11 @@ std::optional<CommandOutcome> CommandWatch::hear(
     case command::MANUAL:
     case command::ASSIST:
       return done(mode_name(status.mode()));
+    case command::CONTROL_TAKE:
+    case command::CONTROL_GIVE:
+    case command::CONTROL_RELEASE:
+      return done(status.station().empty() ? "no station has control"
+                                           : status.station() + " has control");
     default:
       return std::nullopt;  // about something else than the mode
   }

@@ -36,13 +36,16 @@ void row(const Pane& pane, int y, const char* label, const std::string& value,
   const std::string age = age_text(source.age(now));
   if (end + 1 + columns_of(age) <= pane.width()) {
     pane.text_before(pane.width(), y, age, kWarning);
+  } else {
+    pane.put(kLabel - 1, y, U'!', kWarning);
   }
 }
 
+/// Of a finite heading [rad].
 const char* direction(double yaw) {
   constexpr const char* kNames[] = {"E", "NE", "N", "NW", "W", "SW", "S", "SE"};
   const double eighths = std::round(yaw / (0.25 * M_PI));
-  return std::isfinite(eighths) ? kNames[(static_cast<int>(std::fmod(eighths, 8.0)) + 8) % 8] : "";
+  return kNames[(static_cast<int>(std::fmod(eighths, 8.0)) + 8) % 8];
 }
 
 /// Of a goto and its like.
@@ -93,6 +96,7 @@ void paint_fix(const Pane& pane, int y, const GroundStationModel& model, Time no
       has_fix ? fmt::format("{:.5f} {:.5f}", (*fix)->position.latitude, (*fix)->position.longitude)
               : std::string(fix.known() ? "no fix" : "none");
   pane.text(has_fix ? 4 : kLabel, y, place, fix.fresh(now) ? kPlain : kDim);
+  if (fix.known() && !fix.fresh(now)) pane.put(3, y, U'!', kWarning);
 }
 
 Style battery_style(double share) {
@@ -194,7 +198,9 @@ void paint_flight(const Pane& pane, const GroundStationModel& model, Time now) {
       when(pose.known(),
            [&] {
              const double yaw = yaw_of(pose->q_WB);
-             return fmt::format("{}° {}", std::lround(degrees(yaw)), direction(yaw));
+             return std::isfinite(yaw)
+                        ? fmt::format("{}° {}", std::lround(degrees(yaw)), direction(yaw))
+                        : std::string("?");
            }),
       pose, now);
   paint_fix(pane, y++, model, now);

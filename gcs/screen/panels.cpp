@@ -20,6 +20,19 @@ std::string bytes_text(double bytes) {
   return bytes < 1000.0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{:.1f} kB", bytes / 1e3);
 }
 
+/// When a parameter may be set, in a word.
+const char* when_text(ParameterEntry::Changes changes) {
+  switch (changes) {
+    case ParameterEntry::Changes::kAtStart:
+      return "fixed";
+    case ParameterEntry::Changes::kOnGround:
+      return "ground";
+    case ParameterEntry::Changes::kAtAnyTime:
+      return "always";
+  }
+  return "";
+}
+
 }  // namespace
 
 Style style_of(Severity severity) {
@@ -54,9 +67,19 @@ void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
     lines.push_back({is_told ? "known by telemetry alone"
                              : fmt::format("{} components", model.components().size()),
                      kDim});
+    if (!vehicle->station.empty()) {
+      append(lines, "control: " + (model.has_control() ? "here" : vehicle->station), pane.width(),
+             model.has_control() ? kDim : kWarning);
+    }
     const auto& mission = model.mission();
     if (mission.fresh(now) && mission->state == MissionReport::State::kPaused) {
       append(lines, describe_pause(*mission), pane.width(), kWarning);
+    }
+    const auto& link = model.link();
+    if (link.fresh(now)) {
+      lines.push_back({fmt::format("link {} of {}/s", bytes_text(link->bytes_per_s),
+                                   bytes_text(link->budget_bytes_per_s)),
+                       kDim});
     }
     if (model.guard().fresh(now) && !model.guard()->acting) {
       lines.push_back({"guard watches", kDim});
@@ -68,7 +91,7 @@ void paint_health(const Pane& pane, const GroundStationModel& model, Time now) {
 void paint_link(const Pane& pane, const GroundStationModel& model, Time now) {
   const auto& link = model.link();
   if (!link.known()) {
-    pane.text(0, 0, "no ground_link: no budget", kDim);
+    pane.text(0, 0, "no ground_link, no serial_link: no budget", kDim);
     return;
   }
   const Style style = link.fresh(now) ? kPlain : kDim;
@@ -98,18 +121,21 @@ void paint_link(const Pane& pane, const GroundStationModel& model, Time now) {
   if (shown < count) row(2 + shown, fmt::format("{} others", count - shown), others, style);
 }
 
-void paint_events(const Pane& pane, const EventLog& log) {
+void paint_events(const Pane& pane, const EventLog& log, int up) {
   constexpr int kClock = 9;
   std::vector<Line> lines;
   // Only those that can be seen, from the newest on.
   for (auto event = log.events().rbegin(); event != log.events().rend(); ++event) {
-    if (static_cast<int>(lines.size()) >= pane.height()) break;
+    if (static_cast<int>(lines.size()) >= pane.height() + up) break;
     const std::vector<std::string> wrapped = wrap(text_of(*event), pane.width() - kClock);
     for (std::size_t i = wrapped.size(); i-- > 0;) {
       const std::string before = i == 0 ? clock_text(event->time) + " " : std::string(kClock, ' ');
       lines.push_back({before + wrapped[i], style_of(event->severity)});
     }
   }
+  // Never farther than to the oldest at the top.
+  const int most = std::max(0, static_cast<int>(lines.size()) - pane.height());
+  lines.erase(lines.begin(), lines.begin() + std::min(up, most));
   std::reverse(lines.begin(), lines.end());
   draw_tail(pane, lines);
 }
@@ -124,8 +150,9 @@ void paint_parameters(const Pane& pane, const ParameterList& list) {
       text = list.components[index];
     } else {
       const ParameterEntry& entry = list.entries[index];
-      text = fmt::format("{:28} {:14} {}", entry.name, entry.value, entry.limits);
-      style.dim = !entry.live;
+      text = fmt::format("{:6} {:25} {:13} {}", when_text(entry.changes), entry.name, entry.value,
+                         entry.limits);
+      style.dim = entry.changes == ParameterEntry::Changes::kAtStart;
     }
     style.inverse = i == list.selected;
     lines.push_back({text, style});

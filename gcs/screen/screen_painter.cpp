@@ -91,13 +91,19 @@ void paint_map(const Pane& pane, const GroundStationModel& model, Controller& co
   if (model.map() == nullptr) pane.text(1, 0, "no map heard yet", kDim);
 }
 
-void paint_dialog(const Pane& screen, const Controller& controller) {
+void paint_dialog(const Pane& screen, const GroundStationModel& model, const Controller& controller,
+                  Time now) {
   const bool below = controller.keyboard() == Keyboard::kText;
   const Keyboard keyboard = below ? controller.keyboard_below() : controller.keyboard();
   const Pane body = screen.part({0, 1, screen.width(), screen.height() - 3});
   if (keyboard == Keyboard::kHelp) {
     const Keyboard about = controller.keyboard_below();
     paint_help(draw_dialog(body, fmt::format("Help: {}", to_string(about)), 76, 26), about);
+  } else if (keyboard == Keyboard::kEvents) {
+    paint_events(draw_dialog(body, "Events", body.width(), body.height()), model.log(),
+                 controller.events_up());
+  } else if (keyboard == Keyboard::kLink) {
+    paint_link(draw_dialog(body, "Link", 56, 26), model, now);
   } else if (keyboard == Keyboard::kParameters) {
     const ParameterList& list = controller.parameters();
     const std::string& component = list.component;
@@ -176,7 +182,7 @@ void paint(Surface& surface, const GroundStationModel& model, Controller& contro
   if (layout.waypoints.height > 0)
     paint_waypoints(screen.part(layout.waypoints), controller, model.origin());
   paint_events(screen.part(layout.events), model.log());
-  paint_dialog(screen, controller);
+  paint_dialog(screen, model, controller, now);
   paint_message(screen.part(layout.message), model, controller, now);
   paint_hints(screen.part(layout.hints), controller);
 }

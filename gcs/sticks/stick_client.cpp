@@ -22,9 +22,10 @@ constexpr Duration kTimeout = 1500ms;
 
 }  // namespace
 
-StickClient::StickClient(const ComponentContext& context, const Held& held, bool by_keys,
-                         Terminal& terminal)
+StickClient::StickClient(const ComponentContext& context, const std::string& station,
+                         const Held& held, bool by_keys, Terminal& terminal)
     : Component(context),
+      station_(station),
       held_(held),
       by_keys_(by_keys),
       terminal_(terminal),
@@ -62,17 +63,22 @@ void StickClient::advance(Time now) {
 }
 
 void StickClient::send(const Sticks& sticks, Time now) {
-  manual_control_.publish(to_msg(sticks, now));
+  manual_control_.publish(to_msg(sticks, now, station_));
 }
 
 void StickClient::show(const Sticks& sticks) {
+  if (status_ && !status_->station().empty() && status_->station() != station_) {
+    return terminal_.show(fmt::format("{:18} not heard: station '{}' has control",
+                                      mode_name(status_->mode()), status_->station()));
+  }
   terminal_.show(fmt::format(
       "{:18} forward {:+.0f}  left {:+.0f}  up {:+.0f}  turn {:+.0f}  takes over into {}",
       status_ ? mode_name(status_->mode()) : "no vehicle/status", sticks.forward, sticks.left,
       sticks.up, sticks.turn, sticks.assisted ? "Assisted Manual" : "Manual"));
 }
 
-Heartbeat::Heartbeat(const ComponentContext& context) : Component(context) {
+Heartbeat::Heartbeat(const ComponentContext& context, const std::string& station)
+    : Component(context), station_(station) {
   heartbeat_ = advertise(topic::gcs_heartbeat);
   every(kHeartbeat, [this](Time) { send(true); });
 }
@@ -89,6 +95,7 @@ void Heartbeat::send(bool stays) {
   message.header(make_header(now(), ""));
   message.component_name(name());
   message.process(context().process);
+  message.instance(station_);
   message.active(stays);
   message.period(to_seconds(kHeartbeat));
   heartbeat_.publish(message);

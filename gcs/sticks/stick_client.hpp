@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "components/terminal/terminal.hpp"
 #include "components/topics.hpp"
@@ -20,7 +21,8 @@ class StickClient : public Component {
     double duration_s = 1.0;
   };
   /// Sticks held for a while, or those of the keys, which begin with the switch as it is in `held`.
-  StickClient(const ComponentContext& context, const Held& held, bool by_keys, Terminal& terminal);
+  StickClient(const ComponentContext& context, const std::string& station, const Held& held,
+              bool by_keys, Terminal& terminal);
   ~StickClient() override;
 
  private:
@@ -28,6 +30,7 @@ class StickClient : public Component {
   void send(const Sticks& sticks, Time now);
   void show(const Sticks& sticks);
 
+  std::string station_;
   Held held_;
   bool by_keys_;
   Terminal& terminal_;
@@ -38,15 +41,16 @@ class StickClient : public Component {
   Publisher<swiftlet_msgs::msg::ManualControl> manual_control_;
 };
 
-/// Shows the vehicle that a ground station is there, as long as it lives, and at the end that it
+/// Shows the vehicle that the ground station is there, as long as it lives, and at the end that it
 /// leaves.
 class Heartbeat : public Component {
  public:
-  explicit Heartbeat(const ComponentContext& context);
+  Heartbeat(const ComponentContext& context, const std::string& station);
   ~Heartbeat() override;
 
  private:
   void send(bool stays);
+  std::string station_;
   Publisher<swiftlet_msgs::msg::ComponentStatus> heartbeat_;
 };
 

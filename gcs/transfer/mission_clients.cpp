@@ -17,10 +17,13 @@ int exit_code(const TransferProgress& progress) {
 
 }  // namespace
 
-UploadClient::UploadClient(const ComponentContext& context, const std::string& id,
-                           MissionInbox::Items items, const TransferParams& params,
-                           TellProgress tell)
-    : Component(context), upload_(id, std::move(items), now(), params), tell_(std::move(tell)) {
+UploadClient::UploadClient(const ComponentContext& context, const std::string& station,
+                           const std::string& id, MissionInbox::Items items,
+                           const TransferParams& params, TellProgress tell)
+    : Component(context),
+      station_(station),
+      upload_(id, std::move(items), now(), params),
+      tell_(std::move(tell)) {
   parts_ = advertise(topic::mission_upload);
   fetch_ = advertise(topic::mission_fetch);
   subscribe(topic::mission_state,
@@ -33,8 +36,11 @@ UploadClient::UploadClient(const ComponentContext& context, const std::string& i
 }
 
 void UploadClient::advance(Time now) {
-  const MissionUpload::Outgoing outgoing = upload_.advance(now);
-  for (const auto& part : outgoing.parts) parts_.publish(part);
+  MissionUpload::Outgoing outgoing = upload_.advance(now);
+  for (auto& part : outgoing.parts) {
+    part.station(station_);
+    parts_.publish(part);
+  }
   if (outgoing.fetch) fetch_.publish(*outgoing.fetch);
   tell_(upload_.progress());
   if (upload_.progress().state != TransferProgress::State::kRunning) {

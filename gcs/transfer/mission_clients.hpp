@@ -17,13 +17,14 @@ using TellProgress = std::function<void(const TransferProgress&)>;
 /// Brings a mission to the vehicle, then ends the run: 0 once it was read back, else 1.
 class UploadClient : public Component {
  public:
-  UploadClient(const ComponentContext& context, const std::string& id, MissionInbox::Items items,
-               const TransferParams& params, TellProgress tell);
+  UploadClient(const ComponentContext& context, const std::string& station, const std::string& id,
+               MissionInbox::Items items, const TransferParams& params, TellProgress tell);
   const TransferProgress& progress() const { return upload_.progress(); }
 
  private:
   void advance(Time now);
 
+  std::string station_;
   MissionUpload upload_;
   TellProgress tell_;
   Publisher<swiftlet_msgs::msg::MissionPart> parts_;

@@ -15,16 +15,16 @@
 namespace swiftlet {
 namespace {
 
-CommandOutcome until_accepted(const NetworkOptions& network, const GroundCommand& command,
+CommandOutcome until_accepted(const GroundOptions& network, const GroundCommand& command,
                               Duration patience, std::string& id) {
   Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<CommandClient>("gcs", command, patience);
+  const auto& client = host.emplace<CommandClient>("gcs", network.station(), command, patience);
   host.run();
   id = client.command_id();
   return client.outcome();
 }
 
-CommandOutcome until_done(const NetworkOptions& network, const GroundCommand& command,
+CommandOutcome until_done(const GroundOptions& network, const GroundCommand& command,
                           const std::string& id) {
   Terminal terminal;
   Host host(network.host_options("gcs"));
@@ -48,7 +48,7 @@ void CommandOptions::add_to(CLI::App& verb) {
   add_answer_patience(verb, patience_);
 }
 
-void CommandOptions::send(const NetworkOptions& network, const GroundCommand& command) const {
+void CommandOptions::send(const GroundOptions& network, const GroundCommand& command) const {
   std::string id;
   CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_), id);
   const bool accepted = outcome.accepted;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "components/runtime/command_line.hpp"
 #include "gcs/command/command_sender.hpp"
+#include "gcs/command/ground_options.hpp"
 
 namespace swiftlet {
 
@@ -16,7 +16,7 @@ class CommandOptions {
   void add_to(CLI::App& verb);
   /// Sends the command, and with `--wait` stays until it is done; says how it went. Throws
   /// CLI::RuntimeError(1) where it was refused, was not answered or has failed.
-  void send(const NetworkOptions& network, const GroundCommand& command) const;
+  void send(const GroundOptions& network, const GroundCommand& command) const;
   bool json() const { return json_; }
   double patience() const { return patience_; }  ///< for the vehicle's answer [s]
 

@@ -21,7 +21,7 @@ struct Options {
   CommandOptions command;
 };
 
-void follow(const NetworkOptions& network, const Options& options) {
+void follow(const GroundOptions& network, const Options& options) {
   const double patience = std::max(kTransferPatience, options.command.patience());
   MissionInbox::Items items = flyable_items(network, mission_of_file(options.file), options.file,
                                             {MissionBegin::kNow, patience, nullptr});
@@ -35,7 +35,7 @@ void follow(const NetworkOptions& network, const Options& options) {
 
 }  // namespace
 
-void add_follow_verb(CLI::App& gcs, const std::shared_ptr<NetworkOptions>& network) {
+void add_follow_verb(CLI::App& gcs, const std::shared_ptr<GroundOptions>& network) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = gcs.add_subcommand(
       "follow", "Fly a mission file: check it, bring it to the vehicle, start it");

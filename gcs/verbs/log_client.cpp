@@ -45,7 +45,9 @@ std::string json_line_of(const screen::Event& event) {
 LogClient::LogClient(const ComponentContext& context, std::optional<Duration> length,
                      TellEvent tell)
     : VehicleListener(context), tell_(std::move(tell)) {
-  listen_to_commands();
+  subscribe(topic::mode_ack, [this](const swiftlet_msgs::msg::CommandAck& ack) {
+    if (const auto told = commands_.hear(ack)) model_.note(now(), told->severity, told->text);
+  });
   every(kTick, [this](Time now) { advance(now); });
   call_at(now() + kHint, [this](Time) {
     if (model_.vehicle().known()) return;
@@ -58,20 +60,8 @@ LogClient::LogClient(const ComponentContext& context, std::optional<Duration> le
   });
 }
 
-void LogClient::listen_to_commands() {
-  subscribe(topic::mode,
-            [this](const swiftlet_msgs::msg::ModeCommand& command) { commands_.hear(command); });
-  subscribe(topic::waypoints,
-            [this](const swiftlet_msgs::msg::Mission& mission) { commands_.hear(mission); });
-  subscribe(topic::mode_ack,
-            [this](const swiftlet_msgs::msg::CommandAck& ack) { commands_.hear(ack, now()); });
-}
-
 void LogClient::advance(Time now) {
   model_.tick(now);
-  for (const CommandLog::Told& told : commands_.news(now)) {
-    model_.note(now, told.severity, told.text);
-  }
   const auto& events = model_.log().events();
   auto news = events.end();
   while (news != events.begin() && std::prev(news)->number > told_) --news;

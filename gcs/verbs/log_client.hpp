@@ -21,7 +21,6 @@ class LogClient : public screen::VehicleListener {
   LogClient(const ComponentContext& context, std::optional<Duration> length, TellEvent tell);
 
  private:
-  void listen_to_commands();
   void advance(Time now);
 
   TellEvent tell_;

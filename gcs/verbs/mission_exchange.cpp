@@ -66,37 +66,39 @@ bool begins_with_takeoff(const MissionFile& mission) {
 
 Outlook look_out(const NetworkOptions& network, const MissionFile& mission,
                  const UploadPlan& plan) {
-  const bool on_earth = !mission.home && std::any_of(mission.items.begin(), mission.items.end(),
-                                                     [](const WrittenItem& written) {
-                                                       return written.item.global.has_value();
-                                                     });
+  const bool on_earth =
+      std::any_of(mission.items.begin(), mission.items.end(),
+                  [](const WrittenItem& written) { return written.item.global.has_value(); });
   Host host(network.host_options("gcs"));
   const auto& client = host.emplace<OutlookClient>("gcs", from_seconds(plan.patience), on_earth);
   host.run();
   if (!client.circumstances()) end_verb(kExitFailed, "interrupted; " + std::string(kNotSent));
+  if (!client.is_heard()) end_verb(kExitFailed, nobody_answers(host.domain()));
   const screen::Circumstances& seen = *client.circumstances();
   Outlook outlook{seen.check, seen.unknown, nullptr};
   if (seen.map) {
     outlook.map = std::make_unique<OccupancyGrid>(known_map(*seen.map));
     outlook.params.map = outlook.map.get();
   }
-  if (plan.begin == MissionBegin::kLater) {
-    // From somewhere else perhaps, and with another battery.
+  if (plan.begin != MissionBegin::kNow) {
     outlook.params.on_ground = begins_with_takeoff(mission);
     outlook.params.start.reset();
-    outlook.params.charge = 1.0;
+    outlook.params.charge = 1.0;  // it will have another battery perhaps
+  }
+  if (plan.begin == MissionBegin::kElsewhere) {
+    outlook.params.takeoff = MissionCheckParams().takeoff;
+    outlook.params.origin.reset();
+    outlook.params.fence.radius = 0.0;
+    outlook.params.map = nullptr;
+    outlook.unknown = {"the place from which it will be flown"};
   }
   return outlook;
 }
 
-/// Errors that the mission had before are none of who changes something else.
-void forgive_known(const MissionCheck& before, MissionCheck& check) {
-  for (MissionFinding& finding : check.findings) {
-    const bool is_known =
-        std::any_of(before.findings.begin(), before.findings.end(),
-                    [&finding](const MissionFinding& known) { return known.text == finding.text; });
-    if (is_known) finding.severity = MissionFinding::Severity::kWarning;
-  }
+MissionCheck check(const MissionFile& mission, const UploadPlan& plan,
+                   const MissionCheckParams& params) {
+  return plan.in_place_of == nullptr ? check_mission(mission, params)
+                                     : check_change(*plan.in_place_of, mission, params);
 }
 
 }  // namespace
@@ -121,33 +123,31 @@ MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFi
   // What cannot be flown anywhere needs no vehicle to be asked.
   MissionCheckParams anywhere;
   anywhere.on_ground = false;
-  refuse_errors(check_mission(mission, anywhere), name, kExitUnusable);
+  refuse_errors(check(mission, plan, anywhere), name, kExitUnusable);
 
   Outlook outlook = look_out(network, mission, plan);
-  MissionCheck check = check_mission(mission, outlook.params);
-  if (plan.in_place_of != nullptr) {
-    forgive_known(check_mission(*plan.in_place_of, outlook.params), check);
-  }
-  for (const MissionFinding& finding : check.findings) {
+  const MissionCheck found = check(mission, plan, outlook.params);
+  for (const MissionFinding& finding : found.findings) {
     fmt::print(stderr, "{}\n", describe(finding, name));
   }
   if (!outlook.unknown.empty()) {
     fmt::print(stderr, "{}: note: not known of the vehicle, and not checked: {}\n", name,
                fmt::join(outlook.unknown, ", "));
   }
-  if (check.has_errors()) end_verb(kExitFailed, kNotSent);
+  if (found.has_errors()) end_verb(kExitFailed, kNotSent);
   MissionInbox::Items items;
   for (const MissionItem& item : items_of(mission)) items.push_back(to_msg(item));
   return items;
 }
 
-void send_mission(const NetworkOptions& network, MissionInbox::Items items, double patience_s) {
+void send_mission(const GroundOptions& network, MissionInbox::Items items, double patience_s) {
   Terminal terminal;
   Host host(network.host_options("gcs"));
   const Time now(std::chrono::system_clock::now().time_since_epoch());
   const std::string id = fmt::format("gcs-{}-{}", getpid(), now.time_since_epoch().count());
-  const auto& client = host.emplace<UploadClient>(
-      "gcs", id, std::move(items), with_patience(patience_s), on_terminal(terminal, "upload"));
+  const auto& client =
+      host.emplace<UploadClient>("gcs", network.station(), id, std::move(items),
+                                 with_patience(patience_s), on_terminal(terminal, "upload"));
   const int code = host.run();
   terminal.clear();
   if (code == 0 && client.progress().state == TransferProgress::State::kDone) return;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "components/commander/mission_inbox.hpp"
-#include "components/runtime/command_line.hpp"
+#include "gcs/command/ground_options.hpp"
 #include "gcs/mission/mission_file.hpp"
 
 /// Missions between files and the vehicle, for the verbs that do so. Whatever fails ends the verb
@@ -18,8 +18,12 @@ void add_patience(CLI::App& verb, double& patience_s);
 /// The mission of a file; remarks go to the error stream.
 MissionFile mission_of_file(const std::string& file);
 
-/// Whether a mission is flown at once, so that it has to begin where the vehicle is, or later.
-enum class MissionBegin { kNow, kLater };
+/// Where and when a mission will be flown.
+enum class MissionBegin {
+  kNow,        ///< from where the vehicle is, with the battery that it has
+  kLater,      ///< from where the vehicle stands, or took off
+  kElsewhere,  ///< from another place: what depends on places is not checked
+};
 
 struct UploadPlan {
   MissionBegin begin = MissionBegin::kLater;
@@ -35,7 +39,7 @@ MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFi
 
 /// Brings items to the vehicle in place of those that it has, and reads them back. Exit code 1
 /// where it refuses them or they do not get there.
-void send_mission(const NetworkOptions& network, MissionInbox::Items items, double patience_s);
+void send_mission(const GroundOptions& network, MissionInbox::Items items, double patience_s);
 
 /// The vehicle's mission; without items where it has none.
 MissionFile fetch_mission(const NetworkOptions& network, double patience_s);

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "components/mission_state_name.hpp"
 #include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
-#include "gcs/command/mission_state_name.hpp"
 #include "gcs/mission/mission_file.hpp"
 #include "gcs/verbs/command_options.hpp"
 #include "gcs/verbs/first_message.hpp"
@@ -23,17 +23,18 @@ namespace {
 
 namespace command = swiftlet_msgs::msg::ModeCommand_Constants;
 
-using Network = std::shared_ptr<NetworkOptions>;
+using Network = std::shared_ptr<GroundOptions>;
 
-void upload(const NetworkOptions& network, const std::string& file, double patience) {
-  MissionInbox::Items items = flyable_items(network, mission_of_file(file), file,
-                                            {MissionBegin::kLater, patience, nullptr});
+void upload(const GroundOptions& network, const std::string& file, MissionBegin begin,
+            double patience) {
+  MissionInbox::Items items =
+      flyable_items(network, mission_of_file(file), file, {begin, patience, nullptr});
   const std::size_t count = items.size();
   send_mission(network, std::move(items), patience);
   fmt::print("upload: {} items, read back\n", count);
 }
 
-void download(const NetworkOptions& network, const std::string& file, double patience) {
+void download(const GroundOptions& network, const std::string& file, double patience) {
   if (const auto form = mission_form_of(file); !form.ok()) {
     end_verb(kExitUnusable, form.error().reason);
   }
@@ -45,7 +46,7 @@ void download(const NetworkOptions& network, const std::string& file, double pat
   fmt::print("{}: {} items\n", file, mission.items.size());
 }
 
-void show_state(const NetworkOptions& network, bool as_json) {
+void show_state(const GroundOptions& network, bool as_json) {
   Host host(network.host_options("gcs"));
   const auto& client = host.emplace<FirstMessage<swiftlet_msgs::msg::MissionState>>(
       "gcs", topic::mission_state, std::chrono::milliseconds(1800));
@@ -80,7 +81,13 @@ void add_transfers(CLI::App& mission, const Network& network) {
   up->add_option("file", options->file, "MISSION.yaml, .plan or .waypoints")->required();
   add_patience(*up, options->patience);
   network->add_to(*up);
-  up->callback([network, options] { upload(*network, options->file, options->patience); });
+  const auto elsewhere = std::make_shared<bool>(false);
+  up->add_flag("--elsewhere", *elsewhere,
+               "It will not begin where the vehicle is now: what depends on that is not checked");
+  up->callback([network, options, elsewhere] {
+    const MissionBegin begin = *elsewhere ? MissionBegin::kElsewhere : MissionBegin::kLater;
+    upload(*network, options->file, begin, options->patience);
+  });
 
   CLI::App* down = mission.add_subcommand("download", "Write the vehicle's mission into a file");
   down->add_option("file", options->file, "MISSION.yaml, .plan or .waypoints; it is replaced")

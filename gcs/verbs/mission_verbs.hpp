@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "components/runtime/command_line.hpp"
+#include "gcs/command/ground_options.hpp"
 
 namespace swiftlet {
 
 /// Adds the verbs for the vehicle's mission to the command `mission`: upload, download, status,
 /// start, pause, clear.
-void add_mission_verbs(CLI::App& mission, const std::shared_ptr<NetworkOptions>& network);
+void add_mission_verbs(CLI::App& mission, const std::shared_ptr<GroundOptions>& network);
 
 }  // namespace swiftlet

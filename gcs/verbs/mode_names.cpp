@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "components/command_name.hpp"
 #include "components/runtime/config/nearest_word.hpp"
 #include "control/mode_machine.hpp"
-#include "gcs/command/command_name.hpp"
 #include "swiftlet_msgs.h"
 
 namespace swiftlet {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "components/command_name.hpp"
 #include "components/mode_message.hpp"
 #include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
-#include "gcs/command/command_name.hpp"
 #include "gcs/verbs/command_options.hpp"
 #include "gcs/verbs/first_message.hpp"
 #include "gcs/verbs/mode_names.hpp"
@@ -38,7 +38,7 @@ std::string json_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   return json.dump(2) + "\n";
 }
 
-void show(const NetworkOptions& network, const CommandOptions& options) {
+void show(const GroundOptions& network, const CommandOptions& options) {
   Host host(network.host_options("gcs"));
   const auto& client = host.emplace<FirstMessage<swiftlet_msgs::msg::VehicleStatus>>(
       "gcs", topic::vehicle_status, from_seconds(options.patience()));
@@ -47,7 +47,7 @@ void show(const NetworkOptions& network, const CommandOptions& options) {
   fmt::print("{}", options.json() ? json_of(*client.message()) : text_of(*client.message()));
 }
 
-void run(const NetworkOptions& network, const Options& options) {
+void run(const GroundOptions& network, const Options& options) {
   if (options.words.empty()) return show(network, options.command);
   const auto code = command_of_mode(fmt::format("{}", fmt::join(options.words, " ")));
   if (!code.ok()) end_verb(kExitUnusable, code.error().reason);
@@ -60,7 +60,7 @@ void run(const NetworkOptions& network, const Options& options) {
 
 }  // namespace
 
-void add_mode_verb(CLI::App& gcs, const std::shared_ptr<NetworkOptions>& network) {
+void add_mode_verb(CLI::App& gcs, const std::shared_ptr<GroundOptions>& network) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = gcs.add_subcommand("mode", "What mode it is in, and why; or change it");
   verb->add_option("name", options->words,

@@ -37,7 +37,9 @@ bool OutlookClient::knows_all_but_map(Time now) const {
 }
 
 void OutlookClient::advance(Time now) {
-  if (!heard_ && (model_.vehicle().known() || model_.pose().known())) heard_ = now;
+  const bool is_there =
+      model_.vehicle().known() || model_.pose().known() || model_.mission().known();
+  if (!heard_ && is_there) heard_ = now;
   if (!nearly_ && knows_all_but_map(now)) nearly_ = now;
   const bool has_waited = heard_ ? now - *heard_ >= kMoment : now >= deadline_;
   const bool is_complete = nearly_ && (model_.map() || now - *nearly_ >= kMapMoment);

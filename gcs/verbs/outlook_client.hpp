@@ -20,6 +20,8 @@ class OutlookClient : public screen::VehicleListener {
 
   OutlookClient(const ComponentContext& context, Duration patience, bool on_earth);
 
+  /// Whether anything was heard of the vehicle.
+  bool is_heard() const { return heard_.has_value(); }
   /// As it was at the end; nothing where the run was interrupted.
   const std::optional<screen::Circumstances>& circumstances() const { return circumstances_; }
 

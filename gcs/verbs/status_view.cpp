@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "components/conversions.hpp"
+#include "components/mission_state_name.hpp"
 #include "components/mode_message.hpp"
 #include "estimation/geometry/so3.hpp"
-#include "gcs/command/mission_state_name.hpp"
+#include "gcs/screen/shell/reports.hpp"
 
 namespace swiftlet {
 namespace {
@@ -34,6 +36,11 @@ double degrees(double radians) {
   return radians * 180.0 / 3.14159265358979323846;
 }
 
+std::string claw_text(const swiftlet_msgs::msg::ClawState& claw) {
+  const screen::ClawReport report = screen::report_of(claw);
+  return report.fault.empty() ? report.state : report.state + ": " + report.fault;
+}
+
 nlohmann::json json_of(const VehicleView& view) {
   nlohmann::json json = nlohmann::json::object();
   if (view.status) {
@@ -47,6 +54,7 @@ nlohmann::json json_of(const VehicleView& view) {
                        {"waypoint", status.waypoint()},
                        {"waypoint_count", status.waypoint_count()},
                        {"done", status.mission_done()}};
+    json["control"] = status.station();
   }
   if (view.mission) {
     json["uploaded_mission"] = {{"id", view.mission->id()},
@@ -64,6 +72,11 @@ nlohmann::json json_of(const VehicleView& view) {
   if (view.battery) {
     json["battery"] = {{"percentage", view.battery->percentage()},
                        {"voltage_v", view.battery->voltage()}};
+  }
+  if (view.claw) {
+    json["claw"] = {{"state", claw_text(*view.claw)},
+                    {"opening", view.claw->opening()},
+                    {"current_a", view.claw->current()}};
   }
   return json;
 }
@@ -87,6 +100,8 @@ std::string describe(const VehicleView& view) {
     if (!status.reason().empty()) text += fmt::format("reason    {}\n", status.reason());
     text += fmt::format("height    {:.2f} m above take-off\n", status.height());
     text += fmt::format("flight    {}\n", flight_text(status));
+    text +=
+        fmt::format("control   {}\n", status.station().empty() ? "no station" : status.station());
   }
   if (view.mission) text += fmt::format("mission   {}\n", mission_state_text(*view.mission));
   if (view.odometry) {
@@ -101,6 +116,10 @@ std::string describe(const VehicleView& view) {
     text +=
         fmt::format("battery   {:.0f} %, {:.1f} V, {:.1f} A\n", view.battery->percentage() * 100.0f,
                     view.battery->voltage(), -view.battery->current());
+  }
+  if (view.claw) {
+    text += fmt::format("claw      {}, {:.0f} % open, {:.2f} A\n", claw_text(*view.claw),
+                        100.0f * view.claw->opening(), view.claw->current());
   }
   return text;
 }
@@ -130,19 +149,21 @@ std::string to_json_line(const VehicleView& view) {
   return json_of(view).dump(-1, ' ', false, kReplace);
 }
 
-StatusClient::StatusClient(const ComponentContext& context, Duration patience)
-    : StatusClient(context, patience, nullptr) {}
+StatusClient::StatusClient(const ComponentContext& context, Duration patience,
+                           Terminal* until_ready)
+    : StatusClient(context, patience, until_ready, nullptr) {}
 
 StatusClient::StatusClient(const ComponentContext& context, Line each_second)
-    : StatusClient(context, kPatience, each_second) {}
+    : StatusClient(context, kPatience, nullptr, each_second) {}
 
-StatusClient::StatusClient(const ComponentContext& context, Duration patience, Line each_second)
+StatusClient::StatusClient(const ComponentContext& context, Duration patience,
+                           Terminal* until_ready, Line each_second)
     : Component(context),
+      until_ready_(until_ready),
       each_second_(each_second),
       deadline_(now() + patience),
       status_heard_(now()) {
   subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
-    if (!view_.status) deadline_ = std::min(deadline_, now() + kMoment);
     status_heard_ = now();
     view_.status = status;
   });
@@ -152,7 +173,15 @@ StatusClient::StatusClient(const ComponentContext& context, Duration patience, L
             [this](const sensor_msgs::msg::BatteryState& battery) { view_.battery = battery; });
   subscribe(topic::mission_state,
             [this](const swiftlet_msgs::msg::MissionState& mission) { view_.mission = mission; });
+  subscribe(
+      topic::claw_state, [this](const swiftlet_msgs::msg::ClawState& claw) { view_.claw = claw; },
+      Need::kOptional);
   every(each_second != nullptr ? Duration(1s) : Duration(20ms), [this](Time now) { advance(now); });
+}
+
+bool StatusClient::waits() const {
+  if (!view_.status) return true;
+  return until_ready_ != nullptr && !view_.status->ready() && !view_.status->armed();
 }
 
 void StatusClient::advance(Time now) {
@@ -160,9 +189,16 @@ void StatusClient::advance(Time now) {
     if (now - status_heard_ > kStale) view_ = {};
     fmt::print("{}\n", each_second_(view_));
     std::fflush(stdout);
-  } else if (is_complete(view_) || now > deadline_) {
-    stop(view_.status ? 0 : 1);
+    return;
   }
+  if (!waits() && !std::exchange(has_what_it_waits_for_, true)) {
+    deadline_ = std::min(deadline_, now + kMoment);
+  }
+  if (until_ready_ != nullptr) {
+    until_ready_->show(view_.status ? "not ready: " + view_.status->reason() : "no vehicle heard");
+  }
+  const bool is_done = !waits() && is_complete(view_);
+  if (is_done || now > deadline_) stop(view_.status ? 0 : 1);
 }
 
 }  // namespace swiftlet

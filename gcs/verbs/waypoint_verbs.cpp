@@ -17,7 +17,7 @@
 namespace swiftlet {
 namespace {
 
-using Network = std::shared_ptr<NetworkOptions>;
+using Network = std::shared_ptr<GroundOptions>;
 
 /// What the verbs take; each has its own.
 struct Options {
@@ -54,7 +54,7 @@ void print(const MissionFile& mission, bool json) {
 
 /// Fetches the mission, changes it, and brings it back as a whole.
 template <class Edit>
-void edit(const NetworkOptions& network, const Options& options, Edit change) {
+void edit(const GroundOptions& network, const Options& options, Edit change) {
   const MissionFile before = fetch_mission(network, options.patience);
   std::vector<MissionItem> items = items_of(before);
   const Status changed = change(items);
@@ -71,7 +71,7 @@ void edit(const NetworkOptions& network, const Options& options, Edit change) {
   print(mission, options.json);
 }
 
-void add(const NetworkOptions& network, const Options& options) {
+void add(const GroundOptions& network, const Options& options) {
   edit(network, options, [&options](std::vector<MissionItem>& items) -> Status {
     const auto added = add_waypoint(items, waypoint_of(options), options.at);
     if (added.ok()) return {};
@@ -79,18 +79,18 @@ void add(const NetworkOptions& network, const Options& options) {
   });
 }
 
-void move(const NetworkOptions& network, const Options& options) {
+void move(const GroundOptions& network, const Options& options) {
   edit(network, options, [&options](std::vector<MissionItem>& items) {
     return move_waypoint(items, options.number, waypoint_of(options));
   });
 }
 
-void remove(const NetworkOptions& network, const Options& options) {
+void remove(const GroundOptions& network, const Options& options) {
   edit(network, options,
        [&options](std::vector<MissionItem>& items) { return remove_item(items, options.number); });
 }
 
-void list(const NetworkOptions& network, const Options& options) {
+void list(const GroundOptions& network, const Options& options) {
   print(fetch_mission(network, options.patience), options.json);
 }
 
@@ -100,7 +100,7 @@ struct Verb {
 };
 
 Verb add_verb(CLI::App& group, const Network& network, const char* name, const char* what,
-              void (*run)(const NetworkOptions&, const Options&)) {
+              void (*run)(const GroundOptions&, const Options&)) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = group.add_subcommand(name, what);
   verb->callback([network, options, run] { run(*network, *options); });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "estimation/geometry/so3.hpp"
 
@@ -35,6 +36,15 @@ Replanner::Replanner() : Replanner(Params{}) {}
 Replanner::Replanner(const Params& params)
     : params_(params), planner_(params.trajectory), map_(params.trajectory.path.cost) {}
 
+void Replanner::set_params(const Params& params) {
+  TrajectoryPlanner planner(params.trajectory);
+  planner_ = std::move(planner);
+  map_ = ClearanceMap(params.trajectory.path.cost);
+  params_ = params;
+  last_plan_.reset();
+  replaces_ = true;
+}
+
 void Replanner::reset() {
   goal_.reset();
   last_plan_.reset();
@@ -42,6 +52,7 @@ void Replanner::reset() {
   last_failure_ = PlanFailure::kNone;
   last_reason_.clear();
   brakes_ = 0;
+  replaces_ = false;
 }
 
 bool Replanner::leads_to(const FlightGoal& goal, const Trajectory& trajectory) {
@@ -134,7 +145,7 @@ ReplanDecision Replanner::step(const Input& input) {
   const bool due =
       !last_plan_ || input.now - *last_plan_ >= params_.period || input.now < *last_plan_;
   const bool blocked = situation.conflict.has_value();
-  const bool needed = blocked || !situation.to_goal;
+  const bool needed = blocked || !situation.to_goal || (replaces_ && situation.under_way);
   if (!due && !(blocked && !failing_since_)) {
     if (needed && failing_since_) {
       return answer_failure(input, situation, last_failure_, last_reason_);
@@ -172,6 +183,7 @@ ReplanDecision Replanner::step(const Input& input) {
     return answer_failure(input, situation, result.failure, result.reason);
   }
   failing_since_.reset();
+  replaces_ = false;
 
   ReplanDecision decision;
   decision.blocked = blocked;

@@ -64,6 +64,9 @@ class Replanner {
   /// To be called at least once a period, better with every new map. Forgets its past when the goal
   /// changes.
   ReplanDecision step(const Input& input);
+  /// From the next step on, which plans at once, and whose plan replaces what is flown. Throws what
+  /// the constructor throws, with nothing changed.
+  void set_params(const Params& params);
   /// Forgets everything: the next step plans at once.
   void reset();
 
@@ -83,6 +86,7 @@ class Replanner {
   ClearanceMap map_;  // empty where there is none
   std::optional<FlightGoal> goal_;
   std::optional<Time> last_plan_;
+  bool replaces_ = false;  // what is flown, however good it is
   std::optional<Time> failing_since_;
   PlanFailure last_failure_ = PlanFailure::kNone;
   std::string last_reason_;

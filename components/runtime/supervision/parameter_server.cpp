@@ -11,24 +11,32 @@ namespace swiftlet {
 namespace {
 
 using namespace swiftlet_msgs::msg::ParameterRequest_Constants;
+using namespace swiftlet_msgs::msg::Parameter_Constants;
 
 constexpr std::size_t kRememberedRequests = 16;
 
-swiftlet_msgs::msg::Parameter to_msg(const ConfigEntry& entry, bool live) {
+swiftlet_msgs::msg::Parameter to_msg(const ConfigEntry& entry, std::uint8_t changes) {
   swiftlet_msgs::msg::Parameter parameter;
   parameter.name(entry.path);
   parameter.type(entry.type);
   parameter.value(entry.value);
   parameter.limits(entry.limits);
-  parameter.live(live);
+  parameter.changes(changes);
   return parameter;
 }
 
 }  // namespace
 
-void ParameterServer::allow(std::vector<std::string> live, Apply apply) {
-  live_ = std::move(live);
-  apply_ = std::move(apply);
+void ParameterServer::allow(ChangeableParameters changeable) {
+  for (const auto* names : {&changeable.at_any_time, &changeable.on_ground}) {
+    for (const std::string& name : *names) {
+      const bool is_read =
+          std::any_of(entries_.begin(), entries_.end(),
+                      [&name](const ConfigEntry& entry) { return entry.path == name; });
+      if (!is_read) throw std::invalid_argument("nobody reads the parameter '" + name + "'");
+    }
+  }
+  changeable_ = std::move(changeable);
 }
 
 ParameterServer::Reply ParameterServer::answer(const Request& request) {
@@ -46,7 +54,7 @@ ParameterServer::Reply ParameterServer::carry_out(const Request& request) {
   Reply reply;
   if (request.command() == LIST) {
     for (const ConfigEntry& entry : entries_) {
-      reply.parameters().push_back(to_msg(entry, is_live(entry.path)));
+      reply.parameters().push_back(to_msg(entry, changes(entry.path)));
     }
     reply.accepted(true);
     return reply;
@@ -70,22 +78,26 @@ ParameterServer::Reply ParameterServer::carry_out(const Request& request) {
     reply.reason(fmt::format("there is no command {}", request.command()));
     return reply;
   }
-  reply.parameters().push_back(to_msg(*entry, is_live(entry->path)));
+  reply.parameters().push_back(to_msg(*entry, changes(entry->path)));
   reply.accepted(true);
   return reply;
 }
 
 /// Why the value was not taken; "" where it was.
 std::string ParameterServer::set(const ConfigEntry& entry, const std::string& value) {
-  if (!is_live(entry.path)) {
+  const std::uint8_t when = changes(entry.path);
+  if (when == AT_START) {
     return fmt::format(
         "'{}' is used when the component starts and cannot change while it runs; give it with "
-        "--param or --params and start the component again{}",
-        entry.path, live_.empty() ? "" : fmt::format(" (live are {})", fmt::join(live_, ", ")));
+        "--param or --params and start the component again",
+        entry.path);
+  }
+  if (when == ON_GROUND && changeable_.flies && changeable_.flies()) {
+    return fmt::format("'{}' may change before lift-off, not in flight; land first", entry.path);
   }
   try {
     const Config changed = config_.with(entry.path, value);
-    apply_(changed);
+    changeable_.apply(changed);
     for (const ConfigEntry& read : changed.entries()) {
       for (ConfigEntry& known : entries_) {
         if (known.path == read.path) known = read;
@@ -100,8 +112,12 @@ std::string ParameterServer::set(const ConfigEntry& entry, const std::string& va
   }
 }
 
-bool ParameterServer::is_live(const std::string& name) const {
-  return std::find(live_.begin(), live_.end(), name) != live_.end();
+std::uint8_t ParameterServer::changes(const std::string& name) const {
+  const auto is_among = [&name](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_among(changeable_.at_any_time)) return AT_ANY_TIME;
+  return is_among(changeable_.on_ground) ? ON_GROUND : AT_START;
 }
 
 }  // namespace swiftlet

@@ -25,7 +25,7 @@ Supervision::Supervision(Component& component, const Options& options)
       succession_({component.context().instance, options.standby, false, 0},
                   component.alive_period_, options.settle, component.now()),
       parameters_(component.parameters()) {
-  parameters_.allow(component.live_parameters_, component.apply_parameters_);
+  parameters_.allow(component.changeable_parameters_);
   alive_ = component.advertise_always<ComponentStatus>(topic::alive_name(component.name()).c_str(),
                                                        topic::alive_qos);
   status_ = component.advertise_always<ComponentStatus>(topic::component_status.name,

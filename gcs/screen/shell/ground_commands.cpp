@@ -43,6 +43,12 @@ GroundCommand ground_command(const Action& action) {
       command.go_to = GroundCommand::Place{action.place.x(), action.place.y(), action.place.z()};
       return command;
     }
+    case Kind::kGoToGlobal: {
+      GroundCommand command;
+      command.name = "gps";
+      command.go_to_global = action.global;
+      return command;
+    }
     case Kind::kFlyMission:  // once it is on board
     case Kind::kGoOn:
       return simple("mission start", code::MISSION_START);
@@ -54,6 +60,15 @@ GroundCommand ground_command(const Action& action) {
       return simple("claw open", code::CLAW_OPEN);
     case Kind::kCloseClaw:
       return simple("claw close", code::CLAW_CLOSE);
+    case Kind::kTakeControl:
+      return simple("control take", code::CONTROL_TAKE);
+    case Kind::kReleaseControl:
+      return simple("control release", code::CONTROL_RELEASE);
+    case Kind::kGiveControl: {
+      GroundCommand command = simple("control give", code::CONTROL_GIVE);
+      command.successor = action.name;
+      return command;
+    }
     case Kind::kHover:
     case Kind::kFetchMission:
     case Kind::kSave:

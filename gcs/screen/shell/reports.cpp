@@ -19,6 +19,7 @@ namespace {
 /// As the component ground_link writes it: "ground_link" has the total, "ground_link: TOPIC" a
 /// topic.
 constexpr char kLink[] = "ground_link";
+constexpr char kSerialLink[] = "serial_link";
 
 namespace flag = swiftlet_msgs::msg::Telemetry_Constants;
 
@@ -93,6 +94,16 @@ double value_of(const diagnostic_msgs::msg::DiagnosticStatus& status, const char
   return value == nullptr ? 0.0 : std::strtod(value->c_str(), nullptr);
 }
 
+/// On the ground: what comes down is what the line carries.
+LinkReport serial_link_of(const diagnostic_msgs::msg::DiagnosticStatus& status) {
+  LinkReport report;
+  report.bytes_per_s = value_of(status, "bytes_received_per_s");
+  report.budget_bytes_per_s = value_of(status, "capacity_bytes_per_s");
+  report.topics = {{"telemetry, answers (down)", report.bytes_per_s, false},
+                   {"commands (up)", value_of(status, "bytes_sent_per_s"), false}};
+  return report;
+}
+
 }  // namespace
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
@@ -105,6 +116,7 @@ VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status) {
   report.waypoint_count = static_cast<int>(status.waypoint_count());
   report.mission_done = status.mission_done();
   report.takeoff_point = from_msg(status.takeoff_point());
+  report.station = status.station();
   return report;
 }
 
@@ -133,6 +145,13 @@ LimitsReport report_of(const swiftlet_msgs::msg::FlightLimits& limits) {
           limits.low_battery(),
           limits.endurance(),
           limits.most_items()};
+}
+
+ParameterEntry::Changes changes_of(std::uint8_t changes) {
+  using namespace swiftlet_msgs::msg::Parameter_Constants;
+  if (changes == AT_ANY_TIME) return ParameterEntry::Changes::kAtAnyTime;
+  return changes == ON_GROUND ? ParameterEntry::Changes::kOnGround
+                              : ParameterEntry::Changes::kAtStart;
 }
 
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw) {
@@ -172,9 +191,10 @@ TelemetryReport report_of(const swiftlet_msgs::msg::Telemetry& telemetry) {
 }
 
 std::optional<LinkReport> link_of(const diagnostic_msgs::msg::DiagnosticArray& diagnostics) {
-  if (diagnostics.status().empty() || diagnostics.status().front().name() != kLink) {
-    return std::nullopt;
-  }
+  if (diagnostics.status().empty()) return std::nullopt;
+  const auto& first = diagnostics.status().front();
+  if (first.name() == kSerialLink) return serial_link_of(first);
+  if (first.name() != kLink) return std::nullopt;
   LinkReport report;
   const std::string prefix = std::string(kLink) + ": ";
   for (const auto& status : diagnostics.status()) {
@@ -195,7 +215,8 @@ std::shared_ptr<const GridMap> map_of(const nav_msgs::msg::OccupancyGrid& messag
   auto map = std::make_shared<GridMap>();
   map->width = static_cast<int>(message.info().width());
   map->height = static_cast<int>(message.info().height());
-  map->resolution = static_cast<double>(message.info().resolution());
+  // The message's float, as the decimal number that was meant.
+  map->resolution = std::round(static_cast<double>(message.info().resolution()) * 1e6) / 1e6;
   map->origin = from_msg(message.info().origin().position()).head<2>();
   map->cells.assign(message.data().begin(), message.data().end());
   return map;

@@ -6,11 +6,13 @@
 
 #include "components/topics.hpp"
 #include "gcs/screen/state/ground_station_model.hpp"
+#include "gcs/screen/state/parameter_list.hpp"
 
 /// Between messages and what the screen's model has.
 namespace swiftlet::screen {
 
 VehicleReport report_of(const swiftlet_msgs::msg::VehicleStatus& status);
+ParameterEntry::Changes changes_of(std::uint8_t changes);
 MissionReport report_of(const swiftlet_msgs::msg::MissionState& mission);
 LimitsReport report_of(const swiftlet_msgs::msg::FlightLimits& limits);
 ClawReport report_of(const swiftlet_msgs::msg::ClawState& claw);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "gcs/screen/shell/ground_commands.hpp"
+#include "gcs/screen/shell/reports.hpp"
 #include "gcs/screen/shell/screen_component.hpp"
 
 namespace swiftlet::screen {
@@ -14,6 +15,9 @@ using Kind = Action::Kind;
 
 /// Sticks are to be heard before the mode that they steer is asked for.
 constexpr Duration kSticksFirst = 200ms;
+
+/// For the answer to a command, which is repeated meanwhile: a link may be bad.
+constexpr Duration kPatience = 10s;
 
 bool steers(Kind kind) {
   return kind == Kind::kManual || kind == Kind::kAssist;
@@ -68,7 +72,7 @@ void ScreenComponent::send(const Action& action, Time now) {
 void ScreenComponent::begin(const Action& action, Time now) {
   const GroundCommand command = ground_command(action);
   pauses_ = action.kind == Kind::kPauseMission;
-  sender_.begin(command, now, steers(action.kind) ? now + kSticksFirst : now);
+  sender_.begin(command, now, steers(action.kind) ? now + kSticksFirst : now, kPatience);
   model_.set_command({command.name + ": sending...", Severity::kCaution});
 }
 
@@ -97,7 +101,7 @@ void ScreenComponent::hear(const swiftlet_msgs::msg::ParameterReply& reply) {
   const bool is_whole = list.entries.empty();
   for (const auto& parameter : reply.parameters()) {
     const ParameterEntry entry{parameter.name(), parameter.value(), parameter.limits(),
-                               parameter.live()};
+                               changes_of(parameter.changes())};
     if (is_whole) {
       list.entries.push_back(entry);
       continue;

@@ -12,23 +12,24 @@
 namespace swiftlet {
 namespace {
 
-int run_screen(const NetworkOptions& network, const screen::CursesTerminal::Options& options) {
+int run_screen(const GroundOptions& network, const screen::CursesTerminal::Options& options) {
   Host host(network.host_options("gcs"));
   // The terminal ends first: the farewell that follows may take a moment.
   screen::CursesTerminal terminal(options);
   screen::ErrorLines errors;
-  host.emplace<Heartbeat>("heartbeat");
-  host.emplace<screen::ScreenComponent>("screen", terminal, errors);
+  host.emplace<Heartbeat>("heartbeat", network.station());
+  host.emplace<screen::ScreenComponent>("screen", network.station(), terminal, errors);
   return host.run();
 }
 
 }  // namespace
 
-void add_screen(CLI::App& gcs, const std::shared_ptr<NetworkOptions>& network) {
+void add_screen(CLI::App& gcs, const std::shared_ptr<GroundOptions>& network) {
   const auto options = std::make_shared<screen::CursesTerminal::Options>();
   gcs.add_flag("--ascii", options->ascii,
                "Of the screen: no other characters, whatever the locale");
-  gcs.add_flag("!--no-colour", options->colours, "Of the screen: no colours");
+  gcs.add_flag_callback(
+      "--no-colour", [options] { options->colours = false; }, "Of the screen: no colours");
   network->add_to(gcs);
   gcs.callback([&gcs, network, options] {
     if (!gcs.get_subcommands().empty()) return;

@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "components/runtime/command_line.hpp"
+#include "gcs/command/ground_options.hpp"
 
 namespace swiftlet {
 
 /// `swiftlet gcs` without a verb: the screen, until somebody quits. Throws CLI::RuntimeError with
 /// exit code 2 where there is no terminal.
-void add_screen(CLI::App& gcs, const std::shared_ptr<NetworkOptions>& network);
+void add_screen(CLI::App& gcs, const std::shared_ptr<GroundOptions>& network);
 
 }  // namespace swiftlet

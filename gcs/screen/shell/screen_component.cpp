@@ -18,13 +18,15 @@ constexpr int kPictureEvery = 2;
 
 }  // namespace
 
-ScreenComponent::ScreenComponent(const ComponentContext& context, CursesTerminal& terminal,
-                                 ErrorLines& errors)
+ScreenComponent::ScreenComponent(const ComponentContext& context, const std::string& station,
+                                 CursesTerminal& terminal, ErrorLines& errors)
     : VehicleListener(context),
+      station_(station),
       terminal_(terminal),
       errors_(errors),
-      sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain}),
+      sender_({advertise(topic::mode), advertise(topic::waypoints), context.domain, station}),
       asker_(advertise(topic::parameter_request)) {
+  model_.set_station(station);
   manual_control_ = advertise(topic::manual_control);
   mission_parts_ = advertise(topic::mission_upload);
   mission_fetch_ = advertise(topic::mission_fetch);
@@ -96,7 +98,9 @@ void ScreenComponent::advance(Time now) {
 void ScreenComponent::steer(Time now) {
   const auto sticks = controller_.sticks(now);
   // At the end they are let go.
-  if (sticks || steered_) manual_control_.publish(to_msg(sticks.value_or(Sticks{}), now));
+  if (sticks || steered_) {
+    manual_control_.publish(to_msg(sticks.value_or(Sticks{}), now, station_));
+  }
   steered_ = sticks.has_value();
 }
 

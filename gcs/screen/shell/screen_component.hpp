@@ -19,7 +19,8 @@ namespace swiftlet::screen {
 class ScreenComponent : public VehicleListener {
  public:
   /// Terminal and error lines are used only while the run lasts.
-  ScreenComponent(const ComponentContext& context, CursesTerminal& terminal, ErrorLines& errors);
+  ScreenComponent(const ComponentContext& context, const std::string& station,
+                  CursesTerminal& terminal, ErrorLines& errors);
 
  private:
   void listen();
@@ -45,6 +46,7 @@ class ScreenComponent : public VehicleListener {
   void load(const Action& action);
   std::size_t note(const std::string& file, const std::vector<MissionRemark>& remarks);
 
+  std::string station_;
   CursesTerminal& terminal_;
   ErrorLines& errors_;
   Controller controller_;

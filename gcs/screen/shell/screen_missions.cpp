@@ -30,7 +30,10 @@ void ScreenComponent::fetch(Time now) {
 void ScreenComponent::carry_mission(Time now) {
   const bool brings = errand_.brings();
   MissionErrand::Step step = errand_.advance(now);
-  for (const auto& part : step.outgoing.parts) mission_parts_.publish(part);
+  for (auto& part : step.outgoing.parts) {
+    part.station(station_);
+    mission_parts_.publish(part);
+  }
   if (step.outgoing.fetch) mission_fetch_.publish(*step.outgoing.fetch);
   if (!step.progress.empty()) model_.set_command({step.progress, Severity::kCaution});
   if (!step.outcome) return;

@@ -23,6 +23,7 @@ struct Action {
     kManual,
     kAssist,
     kGoTo,
+    kGoToGlobal,
     kFlyMission,    ///< bring `mission` to the vehicle, and start it
     kPauseMission,  ///< hover, and keep the place in it
     kGoOn,          ///< with the vehicle's mission
@@ -32,6 +33,9 @@ struct Action {
     kLoad,
     kOpenClaw,
     kCloseClaw,
+    kTakeControl,
+    kGiveControl,     ///< to `name`
+    kReleaseControl,  ///< to whoever commands next
     kListParameters,
     kSetParameter,
     kNote,  ///< into the log alone
@@ -41,11 +45,12 @@ struct Action {
   Kind kind = Kind::kHover;
   double altitude = 0.0;                            ///< kTakeoff: above the take-off point [m]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< kGoTo: in the map [m]
+  GlobalWaypoint global{};                          ///< kGoToGlobal
   MissionFile mission{};                            ///< kFlyMission
   std::string file{};                               ///< kSave, kLoad
   bool replaces = false;                            ///< kSave: what has that name, unasked
   std::string component{};                          ///< of parameters
-  std::string name{};                               ///< of a parameter
+  std::string name{};                               ///< of a parameter, or a station
   std::string value{};                              ///< kSetParameter, as in YAML
   std::string text{};                               ///< kNote, kTell
   Severity severity = Severity::kNote;              ///< kNote, kTell

@@ -32,6 +32,7 @@ Circumstances circumstances_of(const GroundStationModel& model, Time now) {
   const auto& vehicle = model.vehicle();
   circumstances.in_flight = vehicle.known() && vehicle->in_flight;
   circumstances.mission_flies = model.mission_flies();
+  circumstances.has_control = model.has_control();
   if (model.pose().known() && model.pose()->p_WB.allFinite()) {
     circumstances.vehicle = model.pose()->p_WB;
   }

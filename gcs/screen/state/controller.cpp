@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace swiftlet::screen {
 namespace {
@@ -18,6 +20,20 @@ std::optional<double> number(const std::string& text) {
   const double value = std::strtod(text.c_str(), &end);
   const bool whole = !text.empty() && end == text.c_str() + text.size();
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// "47.39775 8.54570 10", with commas or without; its altitude may be left out.
+std::optional<GlobalWaypoint> global_place(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream words(text);
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) {
+    const std::optional<double> value = number(word);
+    if (!value) return std::nullopt;
+    numbers.push_back(*value);
+  }
+  if (numbers.size() < 2 || numbers.size() > 3) return std::nullopt;
+  return GlobalWaypoint{numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
 }
 
 }  // namespace
@@ -50,7 +66,11 @@ std::vector<Action> Controller::press(KeyCode key, const Circumstances& circumst
       return edit_text(deed);
     case Keyboard::kConfirm:
       return answer(deed);
+    case Keyboard::kEvents:
+      view_events(deed);
+      return {};
     case Keyboard::kHelp:
+    case Keyboard::kLink:
       close();
       return {};
     case Keyboard::kSticks:
@@ -89,6 +109,20 @@ std::vector<Action> Controller::fly(Deed deed, const Circumstances& circumstance
       return {};
     case Deed::kCloseClaw:
       return {action(Kind::kCloseClaw)};
+    case Deed::kBeginEvents:
+      events_up_ = 0;
+      open(Keyboard::kEvents);
+      return {};
+    case Deed::kBeginLink:
+      open(Keyboard::kLink);
+      return {};
+    case Deed::kGoToGlobal:
+      ask_for_global(deed);
+      return {};
+    case Deed::kControl:
+      if (!circumstances.has_control) return {action(Kind::kTakeControl)};
+      write(Deed::kControl, "Give control to which station (none: to the next)?", "");
+      return {};
     case Deed::kBeginCursor:
       begin_cursor(Keyboard::kCursor, circumstances);
       return {};
@@ -164,6 +198,8 @@ std::vector<Action> Controller::edit_text(Deed deed) {
 
 std::vector<Action> Controller::accept_text() {
   if (about_ == Deed::kBeginParameters) return accept_parameter();
+  if (about_ == Deed::kControl) return accept_successor();
+  if (about_ == Deed::kGoToGlobal || about_ == Deed::kAppendGlobal) return accept_global();
   if (about_ == Deed::kSave || about_ == Deed::kLoad) return accept_file(about_);
   const std::optional<double> value = number(text_);
   // What is no number stays, to be put right.
@@ -176,6 +212,38 @@ std::vector<Action> Controller::accept_text() {
   Action takeoff = action(Action::Kind::kTakeoff);
   takeoff.altitude = *value;
   return {takeoff};
+}
+
+void Controller::ask_for_global(Deed about) {
+  write(about, "Latitude and longitude [deg], altitude [m] or none?", "");
+}
+
+std::vector<Action> Controller::accept_global() {
+  const std::optional<GlobalWaypoint> place = global_place(text_);
+  if (!place) return {};  // it stays, to be put right
+  close();
+  if (about_ == Deed::kAppendGlobal) {
+    waypoints_.append_global(*place);
+    return {};
+  }
+  Action go_to = action(Action::Kind::kGoToGlobal);
+  go_to.global = *place;
+  return {go_to};
+}
+
+void Controller::view_events(Deed deed) {
+  constexpr int kStep = 3;
+  constexpr int kMost = 2000;
+  if (deed == Deed::kLeave) close();
+  if (deed == Deed::kUp) events_up_ = std::min(events_up_ + kStep, kMost);
+  if (deed == Deed::kDown) events_up_ = std::max(events_up_ - kStep, 0);
+}
+
+std::vector<Action> Controller::accept_successor() {
+  close();
+  Action give = action(text_.empty() ? Action::Kind::kReleaseControl : Action::Kind::kGiveControl);
+  give.name = text_;
+  return {give};
 }
 
 std::vector<Action> Controller::answer(Deed deed) {

@@ -33,6 +33,8 @@ class Controller {
   MissionList& waypoints() { return waypoints_; }
   const ParameterList& parameters() const { return parameters_; }
   ParameterList& parameters() { return parameters_; }
+  /// Lines up from the newest, of the events that are viewed.
+  int events_up() const { return events_up_; }
   MapCamera& camera() { return map_.camera(); }
   const MapCamera& camera() const { return map_.camera(); }
   /// The question or what is to be written.
@@ -53,6 +55,10 @@ class Controller {
   Actions use_cursor(Deed deed, const Circumstances& circumstances);
   Actions edit_text(Deed deed);
   Actions accept_text();
+  Actions accept_successor();
+  void ask_for_global(Deed about);
+  Actions accept_global();
+  void view_events(Deed deed);
   Actions answer(Deed deed);
   Actions steer(Deed deed);
   Actions hover(const Circumstances& circumstances) const;
@@ -81,6 +87,7 @@ class Controller {
   MapKeys map_;
   MissionList waypoints_;
   ParameterList parameters_;
+  int events_up_ = 0;
   std::string prompt_;
   std::string text_;
   Deed about_ = Deed::kTakeoff;  // what the text is for

@@ -74,6 +74,11 @@ void GroundStationModel::note_changes(const VehicleReport& before, const Vehicle
   } else if (!before.ready && after.ready && !after.armed) {
     log_.add(now, Severity::kSuccess, "ready");
   }
+  if (before.station != after.station) {
+    log_.add(now, after.station == station_ ? Severity::kSuccess : Severity::kCaution,
+             after.station.empty() ? "control: no station has it"
+                                   : "control: " + after.station + " has it");
+  }
   note_progress(before, after, now);
 }
 

@@ -56,7 +56,13 @@ class GroundStationModel {
 
   void note(Time now, Severity severity, const std::string& text) { log_.add(now, severity, text); }
   void set_command(CommandNote note) { command_ = std::move(note); }
+  void set_station(const std::string& name) { station_ = name; }
 
+  /// The name of this ground station; "" where it has none.
+  const std::string& station() const { return station_; }
+  bool has_control() const {
+    return vehicle_.known() && !station_.empty() && vehicle_->station == station_;
+  }
   const Heard<VehicleReport>& vehicle() const { return vehicle_; }
   const Heard<RigidBodyState>& pose() const { return pose_; }
   const Heard<BatteryReport>& battery() const { return battery_; }
@@ -134,6 +140,7 @@ class GroundStationModel {
   std::deque<Time> reports_;
   EventLog log_;
   CommandNote command_;
+  std::string station_;
   bool link_lost_ = false;
 };
 

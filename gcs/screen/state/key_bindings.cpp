@@ -35,14 +35,22 @@ std::vector<Binding> make_bindings() {
       {fly, {k('m')}, Deed::kManual, "m", "manual: fly by keys"},
       {fly, {k('n')}, Deed::kAssist, "n", "assisted manual"},
       {fly, {k('g')}, Deed::kBeginCursor, "g", "go to a place on the map", "go to"},
+      {fly, {k('G')}, Deed::kGoToGlobal, "G", "go to a place on Earth"},
       {fly, {k('w')}, Deed::kBeginWaypoints, "w", "waypoints", "waypoints"},
       {fly, {k('o')}, Deed::kOpenClaw, "o", "open claw (asks in flight)"},
       {fly, {k('c')}, Deed::kCloseClaw, "c", "close claw"},
       {fly, {k('p')}, Deed::kBeginParameters, "p", "parameters"},
+      {fly, {k('v')}, Deed::kBeginEvents, "v", "view all events"},
+      {fly, {k('b')}, Deed::kBeginLink, "b", "budget of the link"},
+      {fly, {k('k')}, Deed::kControl, "k", "control: take it, or give it away"},
 
       {cursor, {KeyCode::kEnter}, Deed::kAccept, "Enter", "fly there", "fly there"},
       {list, {k('a'), KeyCode::kEnter}, Deed::kAppend, "a Enter", "add at the cursor", "add"},
       {list, {k('i')}, Deed::kInsert, "i", "insert before the selected"},
+      {list, {k('t')}, Deed::kAppendTakeoff, "t", "take-off, in front"},
+      {list, {k('G')}, Deed::kAppendGlobal, "G", "add a place on Earth"},
+      {list, {k('r')}, Deed::kAppendReturn, "r", "return, at the end"},
+      {list, {k('l')}, Deed::kAppendLanding, "l", "landing, at the end"},
       {list, {k('m')}, Deed::kMove, "m", "move the selected here", "move"},
       {list, {k('z')}, Deed::kHeight, "z", "height of the selected"},
       {list, {k('x'), KeyCode::kDelete}, Deed::kRemove, "x Del", "remove the selected", "remove"},
@@ -92,7 +100,10 @@ std::vector<Binding> make_bindings() {
       {places, {KeyCode::kDown}, Deed::kDown, "↓", "cursor to the south"},
       {{Keyboard::kParameters}, {KeyCode::kUp}, Deed::kUp, "↑", "the line above"},
       {{Keyboard::kParameters}, {KeyCode::kDown}, Deed::kDown, "↓", "the line below"},
-      {{Keyboard::kCursor, Keyboard::kWaypoints, Keyboard::kParameters, Keyboard::kText},
+      {{Keyboard::kEvents}, {KeyCode::kUp}, Deed::kUp, "↑", "earlier", "earlier"},
+      {{Keyboard::kEvents}, {KeyCode::kDown}, Deed::kDown, "↓", "later", "later"},
+      {{Keyboard::kCursor, Keyboard::kWaypoints, Keyboard::kParameters, Keyboard::kText,
+        Keyboard::kEvents, Keyboard::kLink},
        {KeyCode::kEscape},
        Deed::kLeave,
        "Esc",
@@ -105,7 +116,11 @@ std::vector<Binding> make_bindings() {
        Deed::kLeave,
        "Esc ?",
        "close the help"},
-      {map, {k('?')}, Deed::kHelp, "?", "help"},
+      {{Keyboard::kFly, Keyboard::kCursor, Keyboard::kWaypoints, Keyboard::kParameters},
+       {k('?')},
+       Deed::kHelp,
+       "?",
+       "help"},
       {fly, {k('q')}, Deed::kQuit, "q", "quit (asks in flight)"},
   };
 }
@@ -130,6 +145,10 @@ const char* to_string(Keyboard keyboard) {
       return "Question";
     case Keyboard::kHelp:
       return "Help";
+    case Keyboard::kEvents:
+      return "Events";
+    case Keyboard::kLink:
+      return "Link";
   }
   return "";
 }

@@ -9,10 +9,22 @@
 namespace swiftlet::screen {
 
 /// What the keys mean depends on what is done with them.
-enum class Keyboard { kFly, kCursor, kWaypoints, kSticks, kParameters, kText, kConfirm, kHelp };
+enum class Keyboard {
+  kFly,
+  kCursor,
+  kWaypoints,
+  kSticks,
+  kParameters,
+  kText,
+  kConfirm,
+  kHelp,
+  kEvents,
+  kLink
+};
 inline constexpr Keyboard kKeyboards[] = {
     Keyboard::kFly,        Keyboard::kCursor, Keyboard::kWaypoints, Keyboard::kSticks,
-    Keyboard::kParameters, Keyboard::kText,   Keyboard::kConfirm,   Keyboard::kHelp};
+    Keyboard::kParameters, Keyboard::kText,   Keyboard::kConfirm,   Keyboard::kHelp,
+    Keyboard::kEvents,     Keyboard::kLink};
 const char* to_string(Keyboard keyboard);
 
 /// What a key does.
@@ -29,9 +41,13 @@ enum class Deed {
   kGoOn,
   kOpenClaw,
   kCloseClaw,
+  kControl,
   kBeginCursor,
   kBeginWaypoints,
   kBeginParameters,
+  kBeginEvents,
+  kBeginLink,
+  kGoToGlobal,
   kZoomIn,
   kZoomOut,
   kFollow,
@@ -46,6 +62,10 @@ enum class Deed {
   kPrevious,
   kAppend,
   kInsert,
+  kAppendGlobal,
+  kAppendTakeoff,
+  kAppendReturn,
+  kAppendLanding,
   kMove,
   kHeight,
   kRemove,

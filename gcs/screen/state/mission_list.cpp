@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace swiftlet::screen {
 namespace {
@@ -52,9 +53,45 @@ void MissionList::select(int index) {
   selected_ = std::clamp(index, 0, std::max(0, static_cast<int>(size()) - 1));
 }
 
-void MissionList::append(const Eigen::Vector3d& place) {
+bool MissionList::is_ended() const {
+  if (empty()) return false;
+  const Kind last = items().back().item.kind;
+  return last == Kind::kReturn || last == Kind::kLand;
+}
+
+void MissionList::append(WrittenItem written) {
   ++revision_;
-  mission_.items.push_back(waypoint_at(place));
+  const auto at = static_cast<std::ptrdiff_t>(size()) - (is_ended() ? 1 : 0);
+  mission_.items.insert(mission_.items.begin() + at, std::move(written));
+  select(static_cast<int>(at));
+}
+
+void MissionList::append(const Eigen::Vector3d& place) {
+  append(waypoint_at(place));
+}
+
+void MissionList::append_global(const GlobalWaypoint& place) {
+  WrittenItem written;
+  written.item.global = place;
+  append(std::move(written));
+}
+
+void MissionList::put_takeoff(double altitude) {
+  if (!empty() && items().front().item.kind == Kind::kTakeoff) return select(0);
+  ++revision_;
+  WrittenItem takeoff;
+  takeoff.item.kind = Kind::kTakeoff;
+  takeoff.item.altitude = altitude;
+  mission_.items.insert(mission_.items.begin(), takeoff);
+  select(0);
+}
+
+void MissionList::put_end(Kind kind) {
+  ++revision_;
+  if (is_ended()) mission_.items.pop_back();
+  WrittenItem end;
+  end.item.kind = kind;
+  mission_.items.push_back(end);
   select(static_cast<int>(size()));
 }
 

@@ -17,8 +17,8 @@ std::optional<Eigen::Vector2d> place_in_map(const MissionItem& item,
                                             const std::optional<LocalOrigin>& origin);
 
 /// The mission that a person puts together before it is flown, with all that a file or the vehicle
-/// may have in one. All edits go through here; what keys add are waypoints in the map. One of the
-/// items is selected, where there are any.
+/// may have in one. All edits go through here; what keys add are waypoints, a take-off and an end.
+/// One of the items is selected, where there are any.
 class MissionList {
  public:
   const MissionFile& mission() const { return mission_; }
@@ -33,8 +33,14 @@ class MissionList {
   void select_next() { select(selected_ + 1); }
   void select_previous() { select(selected_ - 1); }
 
-  /// Behind the last one; it is selected then.
+  /// Behind the last one, or the last before a return or a landing that ends it; it is selected
+  /// then.
   void append(const Eigen::Vector3d& place);
+  void append_global(const GlobalWaypoint& place);
+  /// In front of all, where there is none.
+  void put_takeoff(double altitude);
+  /// A return or a landing at the end, in place of the one that is there.
+  void put_end(MissionItem::Kind kind);
   /// In front of the selected one; it is selected then.
   void insert(const Eigen::Vector3d& place);
   /// The selected one goes elsewhere, at its height. An error where it has no place, or one on
@@ -66,6 +72,8 @@ class MissionList {
  private:
   void swap_with(int other);
   MissionItem* edited();
+  bool is_ended() const;
+  void append(WrittenItem written);
 
   MissionFile mission_;
   int selected_ = 0;

@@ -37,6 +37,14 @@ std::vector<Action> Controller::edit_parameters(Deed deed, const Circumstances& 
     return {ask};
   }
   const ParameterEntry& entry = list.entries.at(selected);
+  using Changes = ParameterEntry::Changes;
+  const bool too_late = entry.changes == Changes::kOnGround && circumstances.in_flight;
+  if (entry.changes == Changes::kAtStart || too_late) {
+    const char* when = too_late ? "changes before lift-off, not in flight"
+                                : "is used when the component starts, and does not change";
+    return {message(Action::Kind::kTell, Severity::kCaution,
+                    fmt::format("{}.{} {}", list.component, entry.name, when))};
+  }
   write(Deed::kBeginParameters, fmt::format("{}.{}", list.component, entry.name), entry.value);
   return {};
 }

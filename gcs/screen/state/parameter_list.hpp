@@ -9,10 +9,12 @@ namespace swiftlet::screen {
 
 /// One parameter of a component, as it was heard.
 struct ParameterEntry {
+  /// When it may be set.
+  enum class Changes { kAtStart, kOnGround, kAtAnyTime };
   std::string name;
   std::string value;   ///< as in YAML
   std::string limits;  ///< "" where there are none
-  bool live = false;   ///< may change while the component runs
+  Changes changes = Changes::kAtStart;
 };
 
 /// What the parameter editor shows: components, or the parameters of one of them.

@@ -28,6 +28,7 @@ struct VehicleReport {
   int waypoint_count = 0;  ///<
   bool mission_done = false;
   std::optional<Eigen::Vector3d> takeoff_point{};  ///< in the map [m]
+  std::string station{};                           ///< that has control; "" where none has
 };
 
 /// The mission that the vehicle has.

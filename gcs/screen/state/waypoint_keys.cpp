@@ -62,6 +62,14 @@ void Controller::edit_items(Deed deed, const Circumstances& circumstances) {
       return waypoints_.append(place(circumstances));
     case Deed::kInsert:
       return waypoints_.insert(place(circumstances));
+    case Deed::kAppendGlobal:
+      return ask_for_global(deed);
+    case Deed::kAppendTakeoff:
+      return waypoints_.put_takeoff(kUsualAltitude);
+    case Deed::kAppendReturn:
+      return waypoints_.put_end(MissionItem::Kind::kReturn);
+    case Deed::kAppendLanding:
+      return waypoints_.put_end(MissionItem::Kind::kLand);
     case Deed::kHeight:
       if (!waypoints_.height()) return;
       return write(deed, fmt::format("Height of item {} [m]", waypoints_.selected() + 1),

@@ -37,7 +37,7 @@ struct Puppet : Component {
   using Component::context;
   using Component::every;
   using Component::parameters;
-  using Component::set_live_parameters;
+  using Component::set_changeable_parameters;
   using Component::subscribe;
 };
 
@@ -230,7 +230,7 @@ std::function<void(Puppet&)> with(Parameters& parameters) {
       config.child("model").read("mass", parameters.mass, kPositive);
     };
     read(puppet.parameters());
-    puppet.set_live_parameters({"speed"}, read);
+    puppet.set_changeable_parameters({{"speed"}, {}, nullptr, read});
   };
 }
 

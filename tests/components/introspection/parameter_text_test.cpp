@@ -78,14 +78,20 @@ TEST(ParameterYaml, InstancesThatDifferAreNamed) {
   EXPECT_THAT(differing, ElementsAre("planner"));
 }
 
-TEST(ParameterText, SaysTypeLimitsAndWhatIsLive) {
-  auto live = parameter("x", "1");
-  live.live(true);
-  const auto replies = {reply("planner", "planner.1", {live, parameter("y", "2")})};
+TEST(ParameterText, SaysTypeLimitsAndWhenItMayBeSet) {
+  using namespace swiftlet_msgs::msg::Parameter_Constants;
+  auto always = parameter("x", "1");
+  always.changes(AT_ANY_TIME);
+  auto before = parameter("z", "3");
+  before.changes(ON_GROUND);
+  const auto replies = {reply("planner", "planner.1", {always, parameter("y", "2"), before})};
   const std::string text = parameters_text(replies);
   EXPECT_THAT(text, HasSubstr("planner (planner.1):\n  x "));
-  EXPECT_THAT(text, HasSubstr("double, positive, live\n  y "));
-  EXPECT_EQ(parameters_json(replies)[0]["parameters"][0]["live"], true);
+  EXPECT_THAT(text, HasSubstr("double, positive, at any time\n  y "));
+  EXPECT_THAT(text, HasSubstr("double, positive\n  z ")) << "most are read at the start";
+  EXPECT_THAT(text, HasSubstr("double, positive, on ground\n"));
+  EXPECT_EQ(parameters_json(replies)[0]["parameters"][0]["changes"], "at any time");
+  EXPECT_EQ(parameters_json(replies)[0]["parameters"][1]["changes"], "at start");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ void ScriptedPilot::advance(Time now) {
   }
   step_s = to_seconds(now - *step_begun_);
   if (remote) {
-    sticks_.publish(to_msg(step.sticks, now));
+    sticks_.publish(to_msg(step.sticks, now, ""));
   }
   // The step's own command needs a moment to arrive.
   if (step_s >= 0.3 && step.done()) {

@@ -13,7 +13,9 @@ namespace swiftlet::screen {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using Kind = Action::Kind;
@@ -313,7 +315,12 @@ TEST_F(ControllerTest, ParametersAreChosenAndChanged) {
   EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kListParameters));
   EXPECT_EQ(last.component, "planner");
   EXPECT_THAT(press(KeyCode::kEnter), IsEmpty()) << "there is no answer yet";
-  controller.parameters().entries = {{"seed", "1", "", false}, {"max_speed", "1.5", "", true}};
+  using Changes = ParameterEntry::Changes;
+  controller.parameters().entries = {{"seed", "1", "", Changes::kAtStart},
+                                     {"max_speed", "1.5", "", Changes::kAtAnyTime},
+                                     {"altitude", "2", "", Changes::kOnGround}};
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kTell)) << "it cannot be changed";
+  EXPECT_THAT(last.text, HasSubstr("when the component starts"));
   press(KeyCode::kDown);
   press(KeyCode::kEnter);
   EXPECT_EQ(controller.text(), "1.5");
@@ -322,10 +329,82 @@ TEST_F(ControllerTest, ParametersAreChosenAndChanged) {
   EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kSetParameter));
   EXPECT_EQ(last.name, "max_speed");
   EXPECT_EQ(last.value, "1.2");
+  press(KeyCode::kDown);
+  circumstances.in_flight = true;
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kTell)) << "too late";
+  circumstances.in_flight = false;
+  EXPECT_THAT(press(KeyCode::kEnter), IsEmpty());
+  EXPECT_EQ(controller.text(), "2");
+  press(KeyCode::kEscape);
   press(KeyCode::kEscape);
   EXPECT_TRUE(controller.parameters().component.empty());
   press(KeyCode::kEscape);
   EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
+}
+
+TEST_F(ControllerTest, PlacesOnEarthAreTyped) {
+  EXPECT_THAT(press("G"), IsEmpty());
+  EXPECT_THAT(write("47.5"), IsEmpty()) << "half of a place";
+  EXPECT_THAT(write("47.5 eight"), IsEmpty());
+  EXPECT_THAT(write("47.5, -8.25 12"), ElementsAre(Kind::kGoToGlobal));
+  EXPECT_EQ(last.global.latitude, 47.5);
+  EXPECT_EQ(last.global.longitude, -8.25);
+  EXPECT_EQ(last.global.altitude, 12.0);
+  press("G");
+  EXPECT_THAT(write("47.5 8"), ElementsAre(Kind::kGoToGlobal));
+  EXPECT_EQ(last.global.altitude, 0.0) << "the usual one";
+}
+
+TEST_F(ControllerTest, AMissionFromTheGroundIsPutTogetherByKeysAlone) {
+  circumstances.in_flight = false;
+  circumstances.check.on_ground = true;
+  press("war");
+  EXPECT_THAT(press("s"), Contains(Kind::kTell)) << "it has no take-off";
+  press("tG");
+  write("47.5 8 20");
+  const auto& items = controller.waypoints().items();
+  ASSERT_EQ(items.size(), 4U);
+  EXPECT_EQ(items[0].item.kind, MissionItem::Kind::kTakeoff);
+  EXPECT_EQ(items[1].item.kind, MissionItem::Kind::kWaypoint);
+  EXPECT_TRUE(items[2].item.global) << "before the return";
+  EXPECT_EQ(items[3].item.kind, MissionItem::Kind::kReturn);
+  press("l");
+  EXPECT_EQ(items.size(), 4U) << "a landing in place of the return";
+  EXPECT_EQ(items.back().item.kind, MissionItem::Kind::kLand);
+  press("t");
+  EXPECT_EQ(items.size(), 4U) << "there is one";
+  EXPECT_THAT(press("s"), Contains(Kind::kFlyMission));
+}
+
+TEST_F(ControllerTest, EventsAndTheLinkAreViewed) {
+  press("v");
+  EXPECT_EQ(controller.keyboard(), Keyboard::kEvents);
+  EXPECT_EQ(controller.events_up(), 0);
+  press(KeyCode::kUp);
+  const int up = controller.events_up();
+  EXPECT_GT(up, 0);
+  press(KeyCode::kUp);
+  EXPECT_GT(controller.events_up(), up);
+  for (int i = 0; i < 3; ++i) press(KeyCode::kDown);
+  EXPECT_EQ(controller.events_up(), 0);
+  press(KeyCode::kEscape);
+  press("b");
+  EXPECT_EQ(controller.keyboard(), Keyboard::kLink);
+  press(KeyCode::kEscape);
+  EXPECT_EQ(controller.keyboard(), Keyboard::kFly);
+}
+
+TEST_F(ControllerTest, ControlIsTakenAndGivenAway) {
+  EXPECT_THAT(press("k"), ElementsAre(Kind::kTakeControl));
+  circumstances.has_control = true;
+  EXPECT_THAT(press("k"), IsEmpty()) << "asks to whom";
+  press("base");
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kGiveControl));
+  EXPECT_EQ(last.name, "base");
+  press("k");
+  EXPECT_THAT(press(KeyCode::kEnter), ElementsAre(Kind::kReleaseControl));
+  press("k");
+  EXPECT_THAT(press(KeyCode::kEscape), IsEmpty()) << "kept";
 }
 
 TEST(KeyBindings, NoKeyDoesTwoThings) {

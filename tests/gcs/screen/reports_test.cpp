@@ -125,6 +125,27 @@ TEST(Reports, WhatComesFromTheGroundHasNoShareOfTheLink) {
   EXPECT_EQ(link->topics[0].bytes_per_s, 700.0);
 }
 
+TEST(Reports, ASerialLinkHasABudgetToo) {
+  diagnostic_msgs::msg::DiagnosticStatus status;
+  status.name("serial_link");
+  for (const auto& [key, value] : {std::pair{"bytes_received_per_s", "900"},
+                                   {"bytes_sent_per_s", "80"},
+                                   {"capacity_bytes_per_s", "1920"}}) {
+    diagnostic_msgs::msg::KeyValue entry;
+    entry.key(key);
+    entry.value(value);
+    status.values().push_back(entry);
+  }
+  diagnostic_msgs::msg::DiagnosticArray array;
+  array.status().push_back(status);
+  const auto link = link_of(array);
+  ASSERT_TRUE(link);
+  EXPECT_EQ(link->bytes_per_s, 900.0);
+  EXPECT_EQ(link->budget_bytes_per_s, 1920.0);
+  ASSERT_EQ(link->topics.size(), 2u);
+  EXPECT_EQ(link->topics[1].bytes_per_s, 80.0);
+}
+
 TEST(GroundCommands, AreThoseOfTheVerbs) {
   using Kind = Action::Kind;
   const std::pair<Kind, std::uint8_t> expected[] = {{Kind::kFlyMission, code::MISSION_START},

@@ -8,80 +8,46 @@
 namespace swiftlet {
 namespace {
 
-namespace code = swiftlet_msgs::msg::ModeCommand_Constants;
-
-swiftlet_msgs::msg::ModeCommand command(const std::string& id, std::uint8_t what) {
-  swiftlet_msgs::msg::ModeCommand command;
-  command.id(id);
-  command.command(what);
-  return command;
-}
-swiftlet_msgs::msg::CommandAck ack(const std::string& id, const std::string& refusal = "") {
+swiftlet_msgs::msg::CommandAck ack(const std::string& id, const std::string& name,
+                                   const std::string& refusal = "") {
   swiftlet_msgs::msg::CommandAck ack;
   ack.id(id);
+  ack.name(name);
   ack.accepted(refusal.empty());
   ack.reason(refusal);
   return ack;
 }
-const Time kBegin(std::chrono::seconds(1000));
-const Time kLater = kBegin + CommandLog::kPatience;
 
-std::string news(CommandLog& log, Time now) {
-  std::string text;
-  for (const CommandLog::Told& told : log.news(now)) text += told.text;
-  return text;
-}
 std::string told(CommandLog& log, const swiftlet_msgs::msg::CommandAck& ack) {
-  log.hear(ack, kBegin);
-  return news(log, kBegin);
+  const auto told = log.hear(ack);
+  return told ? told->text : "";
 }
 
 TEST(CommandLog, TellsOnceWhatBecameOfEachCommand) {
   CommandLog log;
-  for (int i = 0; i < 3; ++i) log.hear(command("a", code::ARM));
-  log.hear(command("b", code::MISSION_START));
-  EXPECT_EQ(told(log, ack("b", "not armed")), "mission start refused: not armed");
-  EXPECT_EQ(told(log, ack("a")), "arm: accepted");
-  EXPECT_EQ(told(log, ack("a")), "") << "answers are repeated";
-  log.hear(command("a", code::ARM));
-  EXPECT_EQ(told(log, ack("a")), "");
-  log.hear(command("e", code::LAND));
-  EXPECT_EQ(told(log, ack("e", "land refused: on the ground")), "land refused: on the ground");
-  log.hear(command("c", code::ARM));
-  EXPECT_EQ(told(log, ack("c", "armed already")), "arm refused: armed already") << "another one";
+  EXPECT_EQ(told(log, ack("b", "mission start", "not armed")), "mission start refused: not armed");
+  EXPECT_EQ(told(log, ack("a", "arm")), "arm: accepted");
+  EXPECT_EQ(told(log, ack("a", "arm")), "") << "answers are repeated";
+  EXPECT_EQ(told(log, ack("e", "land", "land refused: on the ground")),
+            "land refused: on the ground");
+  EXPECT_EQ(told(log, ack("c", "arm", "armed already")), "arm refused: armed already")
+      << "another one";
 }
 
-TEST(CommandLog, AnAnswerWaitsForItsCommand) {
+TEST(CommandLog, SaysWhoCommanded) {
   CommandLog log;
-  EXPECT_EQ(told(log, ack("a")), "");
-  log.hear(command("a", code::ARM));
-  EXPECT_EQ(news(log, kBegin), "arm: accepted");
-  EXPECT_EQ(news(log, kLater), "");
-}
-
-TEST(CommandLog, PlacesAreCommandsTooAndSoIsWhatOthersSend) {
-  CommandLog log;
-  swiftlet_msgs::msg::Mission mission;
-  mission.id("m");
-  mission.waypoints().resize(1);
-  log.hear(mission);
-  EXPECT_EQ(told(log, ack("m")), "goto: accepted");
-  mission.id("n");
-  mission.waypoints().resize(4);
-  log.hear(mission);
-  EXPECT_EQ(told(log, ack("n", "too far")), "4 waypoints refused: too far");
-  EXPECT_EQ(told(log, ack("goal_pose 12.5 0a")), "");
-  EXPECT_EQ(news(log, kLater), "goal_pose 12.5 0a: accepted");
-  EXPECT_EQ(news(log, kLater), "");
+  auto answer = ack("a", "land", "station 'base' has control, not 'tablet'");
+  answer.station("tablet");
+  EXPECT_EQ(told(log, answer), "land refused: station 'base' has control, not 'tablet' (tablet)");
+  EXPECT_EQ(told(log, ack("goal_pose 12.5 0a", "")), "goal_pose 12.5 0a: accepted")
+      << "what has no name has its identity";
 }
 
 TEST(CommandLog, RemembersTheLastHundred) {
   CommandLog log;
-  for (int i = 0; i < 1000; ++i) log.hear(command(std::to_string(i), code::LAND));
-  EXPECT_EQ(told(log, ack("999")), "land: accepted");
-  EXPECT_EQ(told(log, ack("901")), "land: accepted");
-  log.hear(ack("5"), kBegin);
-  EXPECT_EQ(news(log, kLater), "5: accepted") << "what is forgotten has its identity alone";
+  for (int i = 0; i < 1000; ++i) told(log, ack(std::to_string(i), "land"));
+  EXPECT_EQ(told(log, ack("901", "land")), "");
+  EXPECT_EQ(told(log, ack("5", "land")), "land: accepted") << "what is forgotten is told again";
 }
 
 }  // namespace

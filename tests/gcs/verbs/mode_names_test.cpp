@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "components/command_name.hpp"
 #include "control/mode_machine.hpp"
-#include "gcs/command/command_name.hpp"
 
 namespace swiftlet {
 namespace {

@@ -11,6 +11,7 @@ namespace swiftlet {
 namespace {
 
 using namespace swiftlet_msgs::msg::ParameterRequest_Constants;
+using namespace swiftlet_msgs::msg::Parameter_Constants;
 using ::testing::HasSubstr;
 
 struct Params {
@@ -34,11 +35,14 @@ struct Server {
   Config config = Config::parse("{model: {mass: 0.8}}", "test.yaml");
   Params params = read_params(config);
   ParameterServer server{config};
+  bool flies = false;
   int requests = 0;
 
   Server() {
-    server.allow({"gain", "offset"},
-                 [this](const Config& changed) { params = read_params(changed); });
+    server.allow({{"gain", "offset"},
+                  {"name"},
+                  [this] { return flies; },
+                  [this](const Config& changed) { params = read_params(changed); }});
   }
   swiftlet_msgs::msg::ParameterReply ask(std::uint8_t command, const std::string& name = "",
                                          const std::string& value = "") {
@@ -61,11 +65,11 @@ TEST(ParameterServer, ListsAllThatIsReadWithTypesLimitsAndPresentValues) {
   EXPECT_EQ(gain.type(), "double");
   EXPECT_EQ(gain.value(), "2");
   EXPECT_EQ(gain.limits(), "from 0.1 to 10");
-  EXPECT_TRUE(gain.live());
+  EXPECT_EQ(gain.changes(), AT_ANY_TIME);
   const auto& mass = reply.parameters()[1];
   EXPECT_EQ(mass.name(), "model.mass");
   EXPECT_EQ(mass.value(), "0.8") << "from the file";
-  EXPECT_FALSE(mass.live());
+  EXPECT_EQ(mass.changes(), AT_START);
   EXPECT_EQ(reply.parameters()[2].value(), "[1, 2, 3]");
   EXPECT_EQ(reply.parameters()[3].value(), "a b");
 }
@@ -115,6 +119,42 @@ TEST(ParameterServer, WhatCannotBeUsedIsRefusedAndChangesNothing) {
   EXPECT_THAT(refusal("gian", "1"), HasSubstr("did you mean 'gain'?"));
   EXPECT_EQ(server.params.gain, 2.0);
   EXPECT_EQ(server.ask(GET, "gain").parameters().at(0).value(), "2");
+}
+
+TEST(ParameterServer, WhatChangesOnTheGroundDoesNotInFlight) {
+  Server server;
+  EXPECT_EQ(server.ask(GET, "name").parameters().at(0).changes(), ON_GROUND);
+  EXPECT_TRUE(server.ask(SET, "name", "before").accepted());
+  server.flies = true;
+  const auto refused = server.ask(SET, "name", "after");
+  EXPECT_FALSE(refused.accepted());
+  EXPECT_THAT(refused.reason(), HasSubstr("before lift-off"));
+  EXPECT_EQ(server.params.name, "before");
+  EXPECT_TRUE(server.ask(SET, "gain", "3").accepted()) << "this one may change in flight";
+}
+
+TEST(ParameterServer, ASectionOfAFileChangesAsTheWholeOfOne) {
+  const Config file = Config::parse("{planner: {speed: 1}, estimator: {speed: 7}}", "test.yaml");
+  const Config section = file.child("planner");
+  double speed = 0.0;
+  const auto read = [&speed](const Config& config) { config.read("speed", speed); };
+  read(section);
+  ParameterServer server(section);
+  server.allow({{"speed"}, {}, nullptr, read});
+  swiftlet_msgs::msg::ParameterRequest request;
+  request.command(SET);
+  request.name("speed");
+  request.value("2");
+  const auto reply = server.answer(request);
+  ASSERT_TRUE(reply.accepted()) << reply.reason();
+  EXPECT_EQ(speed, 2.0);
+  EXPECT_EQ(reply.parameters().at(0).value(), "2");
+}
+
+TEST(ParameterServer, ANameThatNobodyReadsIsAMistake) {
+  Server server;
+  EXPECT_THROW(server.server.allow({{"gian"}, {}, nullptr, nullptr}), std::invalid_argument);
+  EXPECT_THROW(server.server.allow({{}, {"mass"}, nullptr, nullptr}), std::invalid_argument);
 }
 
 TEST(ParameterServer, TheSameRequestTwiceIsCarriedOutOnce) {

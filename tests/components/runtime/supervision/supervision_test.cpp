@@ -30,7 +30,8 @@ struct Heart : Component {
     int number = 0;
     parameters().read("number", number);
     parameters().read("gain", gain_);
-    set_live_parameters({"gain"}, [this](const Config& changed) { changed.read("gain", gain_); });
+    set_changeable_parameters(
+        {{"gain"}, {}, nullptr, [this](const Config& changed) { changed.read("gain", gain_); }});
     every(5ms, [this, number](Time) {
       Clock beat;
       beat.clock().sec(number);

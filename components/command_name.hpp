@@ -41,6 +41,12 @@ inline std::string command_name(std::uint8_t command) {
       return "claw open";
     case CLAW_CLOSE:
       return "claw close";
+    case CONTROL_TAKE:
+      return "control take";
+    case CONTROL_GIVE:
+      return "control give";
+    case CONTROL_RELEASE:
+      return "control release";
     default:
       return "a command that this program does not know";
   }

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Swiftlet authors
+// SPDX-License-Identifier: Apache-2.0
+#include "components/commander/authority_desk.hpp"
+
+#include "components/conversions.hpp"
+
+namespace swiftlet {
+namespace {
+
+std::string name_of(const std::string& station) {
+  return station.empty() ? "unnamed" : station;
+}
+
+Result<Acceptance> accepted_if(const Status& status) {
+  if (!status.ok()) return status.error();
+  return Acceptance::kChanged;
+}
+
+}  // namespace
+
+Duration AuthorityDesk::read_lease(const Config& config) {
+  double lease = 30.0;
+  config.read("control_lease", lease, {1.0, 86400.0});
+  return from_seconds(lease);
+}
+
+Status AuthorityDesk::admit(const std::string& station, Time now) {
+  return authority_.claim(name_of(station), now);
+}
+
+bool AuthorityDesk::admits(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
+  return sticks.station().empty() || authority_.claim(sticks.station(), now).ok();
+}
+
+std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
+    const swiftlet_msgs::msg::ModeCommand& command, Time now) {
+  using namespace swiftlet_msgs::msg::ModeCommand_Constants;
+  const std::string station = name_of(command.station());
+  switch (command.command()) {
+    case CONTROL_TAKE:
+      return accepted_if(authority_.claim(station, now));
+    case CONTROL_GIVE:
+      return accepted_if(authority_.give(station, command.successor(), now));
+    case CONTROL_RELEASE:
+      return accepted_if(authority_.release(station, now));
+    default:
+      return std::nullopt;
+  }
+}
+
+void AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) {
+  authority_.hear(heartbeat.instance(), now);
+}
+
+void AuthorityDesk::write(swiftlet_msgs::msg::CommanderState& state) const {
+  state.station(authority_.state().holder);
+  state.station_heard(to_msg(authority_.state().heard));
+}
+
+void AuthorityDesk::restore(const swiftlet_msgs::msg::CommanderState& state) {
+  authority_.restore({state.station(), from_msg(state.station_heard())});
+}
+
+}  // namespace swiftlet
