@@ -134,7 +134,8 @@ void add_stick(CLI::App& gcs, const Network& network) {
     }
     Host host(network->host_options("gcs"));
     // A script that holds sticks for a while is nobody to be missed afterwards.
-    if (!is_held) host.emplace<Heartbeat>("heartbeat", network->station());
+    if (!is_held)
+      host.emplace<Heartbeat>("heartbeat", network->station(), Heartbeat::Absence::kIsMissed);
     host.emplace<StickClient>("gcs", network->station(), *held, !is_held, terminal);
     const int code = host.run();
     if (code != 0) throw CLI::RuntimeError(code);
@@ -204,7 +205,7 @@ void add_watch(CLI::App& gcs, const Network& network) {
   network->add_to(*verb);
   verb->callback([network, json] {
     Host host(network->host_options("gcs"));
-    host.emplace<Heartbeat>("heartbeat", network->station());
+    host.emplace<Heartbeat>("heartbeat", network->station(), Heartbeat::Absence::kIsMissed);
     host.emplace<StatusClient>("gcs", *json ? to_json_line : one_line);
     host.run();
   });

@@ -174,6 +174,7 @@ class Commander : public Component {
         topic::gcs_heartbeat,
         [this](const swiftlet_msgs::msg::ComponentStatus& station) {
           authority_.hear(station, now());
+          if (!(station.period() > 0.0)) return;  // it promises nothing, and is not missed
           if (station.active()) {
             director_.set_link_heard(now());
           } else {

@@ -77,13 +77,14 @@ void StickClient::show(const Sticks& sticks) {
       sticks.up, sticks.turn, sticks.assisted ? "Assisted Manual" : "Manual"));
 }
 
-Heartbeat::Heartbeat(const ComponentContext& context, const std::string& station)
-    : Component(context), station_(station) {
+Heartbeat::Heartbeat(const ComponentContext& context, const std::string& station, Absence absence)
+    : Component(context), station_(station), absence_(absence) {
   heartbeat_ = advertise(topic::gcs_heartbeat);
   every(kHeartbeat, [this](Time) { send(true); });
 }
 
 Heartbeat::~Heartbeat() {
+  if (absence_ == Absence::kIsNot) return;
   send(false);
   // Who ends at once takes back what is under way. Should the word get lost all the same, the
   // vehicle misses this ground station, which is the safe side.
@@ -97,7 +98,8 @@ void Heartbeat::send(bool stays) {
   message.process(context().process);
   message.instance(station_);
   message.active(stays);
-  message.period(to_seconds(kHeartbeat));
+  // Who promises nothing is not missed.
+  message.period(absence_ == Absence::kIsMissed ? to_seconds(kHeartbeat) : 0.0);
   heartbeat_.publish(message);
 }
 

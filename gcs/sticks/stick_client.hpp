@@ -41,16 +41,18 @@ class StickClient : public Component {
   Publisher<swiftlet_msgs::msg::ManualControl> manual_control_;
 };
 
-/// Shows the vehicle that the ground station is there, as long as it lives, and at the end that it
-/// leaves.
+/// Shows the vehicle that the ground station is there, as long as it lives: so it keeps control.
 class Heartbeat : public Component {
  public:
-  Heartbeat(const ComponentContext& context, const std::string& station);
+  /// Whether the vehicle misses it when it falls silent. It says that it leaves, at its end.
+  enum class Absence { kIsMissed, kIsNot };
+  Heartbeat(const ComponentContext& context, const std::string& station, Absence absence);
   ~Heartbeat() override;
 
  private:
   void send(bool stays);
   std::string station_;
+  Absence absence_;
   Publisher<swiftlet_msgs::msg::ComponentStatus> heartbeat_;
 };
 

@@ -11,6 +11,7 @@
 #include "components/runtime/number_check.hpp"
 #include "gcs/command/command_client.hpp"
 #include "gcs/command/command_watch.hpp"
+#include "gcs/sticks/stick_client.hpp"
 
 namespace swiftlet {
 namespace {
@@ -24,10 +25,12 @@ CommandOutcome until_accepted(const GroundOptions& network, const GroundCommand&
   return client.outcome();
 }
 
+/// It keeps control meanwhile, and is not missed: a script may be interrupted.
 CommandOutcome until_done(const GroundOptions& network, const GroundCommand& command,
                           const std::string& id) {
   Terminal terminal;
   Host host(network.host_options("gcs"));
+  host.emplace<Heartbeat>("heartbeat", network.station(), Heartbeat::Absence::kIsNot);
   const auto& client = host.emplace<WaitClient>("gcs", command, id, terminal);
   host.run();
   terminal.clear();

@@ -92,6 +92,7 @@ TEST_F(StationControl, ParametersChangeOnTheGroundAndSomeOfThemInFlight) {
     return gcs({"param", "set", component, name, value});
   };
   EXPECT_EQ(set("commander", "takeoff_speed", "0.5").exit_code, 0) << "before lift-off";
+  EXPECT_EQ(set("commander", "control_lease", "1").exit_code, 0);
   accepted("base", {"arm", "--wait"});
   accepted("base", {"takeoff", "1", "--wait"});
   const Finished late = set("commander", "takeoff_speed", "0.6");
@@ -102,13 +103,16 @@ TEST_F(StationControl, ParametersChangeOnTheGroundAndSomeOfThemInFlight) {
   EXPECT_THAT(never.err, HasSubstr("when the component starts"));
 
   EXPECT_EQ(set("planner", "max_speed", "0.4").exit_code, 0);
-  accepted("base", {"goto", "3.0", "1.05"});
+  Process go_to = start({"gcs", "goto", "3.0", "1.05", "--wait", "--station", "base"});
   double fastest = 0.0;
   ASSERT_TRUE(status_becomes("there", Seconds(30.0), [&](const json& status) {
     fastest = std::max(fastest, status["speed_m_s"].get<double>());
-    return status["mode"] == "Hover";
+    if (status["mode"] == "Indoor Navigation") {
+      EXPECT_EQ(status["control"], "base") << "who waits keeps control";
+    }
+    return fastest > 0.2 && status["mode"] == "Hover";
   }));
-  EXPECT_GT(fastest, 0.2);
+  EXPECT_EQ(go_to.wait(kExitLimit)->exit_code, 0);
   EXPECT_LT(fastest, 0.55) << "it was 1.5 m/s";
 
   EXPECT_EQ(set("commander", "fence_radius", "3").exit_code, 0);

@@ -17,7 +17,7 @@ int run_screen(const GroundOptions& network, const screen::CursesTerminal::Optio
   // The terminal ends first: the farewell that follows may take a moment.
   screen::CursesTerminal terminal(options);
   screen::ErrorLines errors;
-  host.emplace<Heartbeat>("heartbeat", network.station());
+  host.emplace<Heartbeat>("heartbeat", network.station(), Heartbeat::Absence::kIsMissed);
   host.emplace<screen::ScreenComponent>("screen", network.station(), terminal, errors);
   return host.run();
 }
