@@ -160,6 +160,7 @@ TEST_F(ScreenFlight, AWholeMissionIsFlownWithTheKeyboardAtEachSize) {
   go_to(2.0, 1.0);
 
   screen_->resize(80, 24);
+  ASSERT_TRUE(screen_->shows("battery", kAnswer)) << "drawn anew, with another step of the cursor";
   put_together({{2.0, 1.0}, {3.0, 1.0}, {4.0, 1.0}, {3.0, 1.0}, {2.2, 4.4}});
   screen_->press("s");
   ASSERT_TRUE(screen_->shows("upload: 5 items, read back", kAnswer));
@@ -198,6 +199,7 @@ TEST_F(ScreenFlight, AWholeMissionIsFlownWithTheKeyboardAtEachSize) {
   screen_->press("Escape");
 
   screen_->resize(200, 60);
+  ASSERT_TRUE(screen_->shows("reports/s", kAnswer));
   go_to(2.0, 3.0);
   ASSERT_TRUE(screen_->shows("items done", kAnswer));
   land();

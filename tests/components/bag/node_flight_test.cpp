@@ -112,7 +112,8 @@ json of(const swiftlet_msgs::msg::VehicleStatus& m) {
           {"waypoint", m.waypoint()},
           {"waypoint_count", m.waypoint_count()},
           {"mission_done", m.mission_done()},
-          {"takeoff_point", xyz(m.takeoff_point())}};
+          {"takeoff_point", xyz(m.takeoff_point())},
+          {"station", m.station()}};
 }
 
 /// The value that our own reader gives for one message.

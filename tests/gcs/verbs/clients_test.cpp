@@ -25,7 +25,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-namespace code = swiftlet_msgs::msg::ModeCommand_Constants;
 namespace mode = swiftlet_msgs::msg::VehicleStatus_Constants;
 
 /// A vehicle that says what a test wants.
@@ -387,24 +386,20 @@ TEST(LogClient, TellsOfCommandsWhoeverGivesThemAndWhyTheyAreRefused) {
   const auto texts = logged(
       [](Puppet& self) {
         self.say(topic::vehicle_status, 100ms, [](Time) { return status(mode::GROUNDED); });
-        self.say(topic::mode, 200ms, [](Time) {
-          swiftlet_msgs::msg::ModeCommand command;
-          command.id("a");
-          command.command(code::TAKEOFF);
-          return command;
-        });
         self.say(
             topic::mode_ack, 200ms,
             [](Time) {
               swiftlet_msgs::msg::CommandAck ack;
               ack.id("a");
               ack.reason("not armed");
+              ack.name("takeoff");
+              ack.station("tablet");
               return ack;
             },
             kBegin + 1s);
       },
       3s);
-  EXPECT_THAT(texts, ElementsAre("vehicle heard: Grounded", "takeoff refused: not armed"));
+  EXPECT_THAT(texts, ElementsAre("vehicle heard: Grounded", "takeoff refused: not armed (tablet)"));
 }
 
 TEST(LogClient, TellsOfComponentsAndMissions) {
