@@ -3,12 +3,17 @@
 #include "components/commander/authority_desk.hpp"
 
 #include "components/conversions.hpp"
+#include "components/manual_control_message.hpp"
 
 namespace swiftlet {
 namespace {
 
 std::string name_of(const std::string& station) {
   return station.empty() ? "unnamed" : station;
+}
+
+bool is_centred(const swiftlet_msgs::msg::ManualControl& sticks) {
+  return from_msg(sticks).deflection() == 0.0;
 }
 
 Result<Acceptance> accepted_if(const Status& status) {
@@ -29,7 +34,10 @@ Status AuthorityDesk::admit(const std::string& station, Time now) {
 }
 
 bool AuthorityDesk::admits(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
-  return sticks.station().empty() || authority_.claim(sticks.station(), now).ok();
+  if (sticks.station().empty()) return true;
+  // Who touches nothing takes nothing.
+  const bool asks = holder(now) == sticks.station() || !is_centred(sticks);
+  return asks ? authority_.claim(sticks.station(), now).ok() : holder(now).empty();
 }
 
 std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
@@ -49,7 +57,12 @@ std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
 }
 
 void AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) {
-  authority_.hear(heartbeat.instance(), now);
+  authority_.hear(name_of(heartbeat.instance()), now);
+}
+
+bool AuthorityDesk::is_of_holder(const swiftlet_msgs::msg::ComponentStatus& heartbeat,
+                                 Time now) const {
+  return holder(now).empty() || holder(now) == name_of(heartbeat.instance());
 }
 
 void AuthorityDesk::write(swiftlet_msgs::msg::CommanderState& state) const {

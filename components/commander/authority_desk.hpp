@@ -29,6 +29,9 @@ class AuthorityDesk {
                                               Time now);
   void hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now);
 
+  /// Whether it is that of who has control, or nobody has.
+  bool is_of_holder(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) const;
+
   /// "" where no station has control.
   const std::string& holder(Time now) const { return authority_.holder(now); }
 

@@ -175,6 +175,7 @@ class Commander : public Component {
         [this](const swiftlet_msgs::msg::ComponentStatus& station) {
           authority_.hear(station, now());
           if (!(station.period() > 0.0)) return;  // it promises nothing, and is not missed
+          if (!authority_.is_of_holder(station, now())) return;  // who only looks is no link
           if (station.active()) {
             director_.set_link_heard(now());
           } else {
@@ -240,9 +241,9 @@ class Commander : public Component {
   void hear(const swiftlet_msgs::msg::MissionPart& part) {
     const Status admitted = authority_.admit(part.station(), now());
     if (admitted.ok()) {
-      desk_.hear(part, director_);
+      desk_.hear(part, director_, now());
     } else {
-      desk_.refuse(part, "upload refused: " + admitted.error().reason);
+      desk_.refuse(part, "upload refused: " + admitted.error().reason, now());
     }
   }
 
@@ -381,7 +382,7 @@ class Commander : public Component {
   void tell_control(Time now) {
     const std::string& holder = authority_.holder(now);
     if (holder == last_holder_) return;
-    log()->info("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
+    log()->debug("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
     last_holder_ = holder;
     publish_state(now);
     publish_status(now);

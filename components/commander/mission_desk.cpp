@@ -14,6 +14,8 @@ namespace {
 
 /// Uploads that have ended, kept so that parts of them that are late are not taken for new ones.
 constexpr std::size_t kRememberedUploads = 64;
+/// An upload of which nothing came for so long stands in nobody's way any more.
+constexpr Duration kUploadTimeout = std::chrono::seconds(5);
 /// A claw that was not heard for so long is not there.
 constexpr Duration kClawTimeout = std::chrono::seconds(1);
 
@@ -60,10 +62,11 @@ MissionInbox::Items MissionDesk::messages() const {
   return messages;
 }
 
-void MissionDesk::hear(const swiftlet_msgs::msg::MissionPart& part,
-                       const FlightDirector& director) {
+void MissionDesk::hear(const swiftlet_msgs::msg::MissionPart& part, const FlightDirector& director,
+                       Time now) {
   // What is late must not bring back what was cleared, nor disturb what came after it.
   if (std::find(ended_.begin(), ended_.end(), part.id()) != ended_.end()) return;
+  part_heard_ = now;
   if (part.id() != upload_) {
     end_upload();
     upload_ = part.id();
@@ -76,8 +79,11 @@ void MissionDesk::hear(const swiftlet_msgs::msg::MissionPart& part,
   end_upload();
 }
 
-void MissionDesk::refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason) {
-  if (std::find(ended_.begin(), ended_.end(), part.id()) != ended_.end() || uploads()) return;
+void MissionDesk::refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason,
+                         Time now) {
+  if (std::find(ended_.begin(), ended_.end(), part.id()) != ended_.end()) return;
+  if (uploads() && now - part_heard_ < kUploadTimeout) return;
+  end_upload();
   upload_ = part.id();
   refusal_ = reason;
   end_upload();

@@ -24,9 +24,9 @@ class MissionDesk {
       : runner_(params), inbox_(params.most_items) {}
 
   void set_params(const MissionRunner::Params& params) { runner_.set_params(params); }
-  void hear(const swiftlet_msgs::msg::MissionPart& part, const FlightDirector& director);
-  /// An upload of who may not. One that is under way is not disturbed: then nothing is said.
-  void refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason);
+  void hear(const swiftlet_msgs::msg::MissionPart& part, const FlightDirector& director, Time now);
+  /// An upload of who may not. One that is under way is not disturbed: then nothing is said yet.
+  void refuse(const swiftlet_msgs::msg::MissionPart& part, const std::string& reason, Time now);
   std::vector<swiftlet_msgs::msg::MissionPart> answer(const swiftlet_msgs::msg::MissionFetch& fetch,
                                                       Time now) const;
   void hear(const swiftlet_msgs::msg::ClawState& claw, Time now);
@@ -54,6 +54,7 @@ class MissionDesk {
  private:
   Status take(const FlightDirector& director);
   bool uploads() const;  // some of the last upload is missing
+  Time part_heard_{};    // of it, last
   void end_upload();
   MissionInbox::Items messages() const;
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 
 namespace swiftlet {
 namespace {
@@ -22,15 +23,18 @@ std::string check_name(const std::string& name) {
 
 void GroundOptions::add_to(CLI::App& verb) {
   NetworkOptions::add_to(verb);
-  verb.add_option("--station", station_,
-                  "Name of this ground station; one at a time has control of a vehicle. Stations "
-                  "of the same name are one")
-      ->envname("SWIFTLET_STATION")
+  verb.add_option(
+          "--station", station_,
+          "Name of this ground station, else that of SWIFTLET_STATION, else the host's; one "
+          "at a time has control of a vehicle")
       ->check(check_name)
       ->capture_default_str();
 }
 
-std::string GroundOptions::host_name() {
+// Not CLI11's: all verbs have the option, and each that is not used would bring the variable back.
+std::string GroundOptions::own_name() {
+  const char* told = std::getenv("SWIFTLET_STATION");
+  if (told != nullptr && *told != '\0') return std::string(told).substr(0, kLongestName);
   char name[kLongestName + 1] = "";
   // A name that is cut is one, too.
   (void)gethostname(name, kLongestName);

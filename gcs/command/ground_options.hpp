@@ -13,12 +13,13 @@ class GroundOptions : public NetworkOptions {
  public:
   /// NetworkOptions and `--station`.
   void add_to(CLI::App& verb);
-  /// The name under which this ground station commands; that of the host where none was given.
+  /// The name under which this ground station commands; SWIFTLET_STATION or that of
+  /// the host where none was given.
   const std::string& station() const { return station_; }
 
  private:
-  std::string station_ = host_name();
-  static std::string host_name();
+  static std::string own_name();
+  std::string station_ = own_name();
 };
 
 }  // namespace swiftlet

@@ -121,7 +121,7 @@ void paint_link(const Pane& pane, const GroundStationModel& model, Time now) {
   if (shown < count) row(2 + shown, fmt::format("{} others", count - shown), others, style);
 }
 
-void paint_events(const Pane& pane, const EventLog& log, int up) {
+int paint_events(const Pane& pane, const EventLog& log, int up) {
   constexpr int kClock = 9;
   std::vector<Line> lines;
   // Only those that can be seen, from the newest on.
@@ -138,6 +138,7 @@ void paint_events(const Pane& pane, const EventLog& log, int up) {
   lines.erase(lines.begin(), lines.begin() + std::min(up, most));
   std::reverse(lines.begin(), lines.end());
   draw_tail(pane, lines);
+  return most;
 }
 
 void paint_parameters(const Pane& pane, const ParameterList& list) {

@@ -21,8 +21,8 @@ void paint_header(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_flight(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_health(const Pane& pane, const GroundStationModel& model, Time now);
 void paint_link(const Pane& pane, const GroundStationModel& model, Time now);
-/// The newest at the bottom, or what stands `up` lines above it.
-void paint_events(const Pane& pane, const EventLog& log, int up = 0);
+/// The newest at the bottom, or what stands `up` lines above it. How far up there is something.
+int paint_events(const Pane& pane, const EventLog& log, int up = 0);
 /// `origin`: where the map is on Earth, where that is known.
 void paint_waypoints(const Pane& pane, const Controller& controller,
                      const std::optional<LocalOrigin>& origin);

@@ -91,7 +91,7 @@ void paint_map(const Pane& pane, const GroundStationModel& model, Controller& co
   if (model.map() == nullptr) pane.text(1, 0, "no map heard yet", kDim);
 }
 
-void paint_dialog(const Pane& screen, const GroundStationModel& model, const Controller& controller,
+void paint_dialog(const Pane& screen, const GroundStationModel& model, Controller& controller,
                   Time now) {
   const bool below = controller.keyboard() == Keyboard::kText;
   const Keyboard keyboard = below ? controller.keyboard_below() : controller.keyboard();
@@ -100,8 +100,8 @@ void paint_dialog(const Pane& screen, const GroundStationModel& model, const Con
     const Keyboard about = controller.keyboard_below();
     paint_help(draw_dialog(body, fmt::format("Help: {}", to_string(about)), 76, 26), about);
   } else if (keyboard == Keyboard::kEvents) {
-    paint_events(draw_dialog(body, "Events", body.width(), body.height()), model.log(),
-                 controller.events_up());
+    const Pane inside = draw_dialog(body, "Events", body.width(), body.height());
+    controller.limit_events_up(paint_events(inside, model.log(), controller.events_up()));
   } else if (keyboard == Keyboard::kLink) {
     paint_link(draw_dialog(body, "Link", 56, 26), model, now);
   } else if (keyboard == Keyboard::kParameters) {

@@ -53,7 +53,7 @@ void StickClient::advance(Time now) {
     return stop(1);
   }
   if (!by_keys_) {
-    if (now - *matched_ >= from_seconds(held_.duration_s)) return stop(0);
+    if (now - *matched_ >= from_seconds(held_.duration_s)) return end_held();
     return send(held_.sticks, now);
   }
   for (const Key pressed : terminal_.keys()) keys_.press(pressed, now);
@@ -66,8 +66,19 @@ void StickClient::send(const Sticks& sticks, Time now) {
   manual_control_.publish(to_msg(sticks, now, station_));
 }
 
+bool StickClient::is_refused() const {
+  return status_ && !status_->station().empty() && status_->station() != station_;
+}
+
+void StickClient::end_held() {
+  if (!is_refused()) return stop(0);
+  fmt::print(stderr, "stick: not heard: station '{}' has control, not '{}'\n", status_->station(),
+             station_);
+  stop(1);
+}
+
 void StickClient::show(const Sticks& sticks) {
-  if (status_ && !status_->station().empty() && status_->station() != station_) {
+  if (is_refused()) {
     return terminal_.show(fmt::format("{:18} not heard: station '{}' has control",
                                       mode_name(status_->mode()), status_->station()));
   }

@@ -29,6 +29,8 @@ class StickClient : public Component {
   void advance(Time now);
   void send(const Sticks& sticks, Time now);
   void show(const Sticks& sticks);
+  bool is_refused() const;
+  void end_held();
 
   std::string station_;
   Held held_;

@@ -110,7 +110,9 @@ ReplanDecision Replanner::answer_failure(const Input& input, const Situation& si
   decision.failure = failure;
   decision.reason = reason;
   decision.blocked = situation.conflict.has_value();
-  if (situation.to_goal && !decision.blocked) return decision;  // what is flown will do
+  // What is flown breaks limits that are new: from rest there is a way within them.
+  const bool too_fast = replaces_ && situation.under_way && failure == PlanFailure::kNoTrajectory;
+  if (situation.to_goal && !decision.blocked && !too_fast) return decision;  // it will do
   if (!failing_since_) failing_since_ = input.now;
   const bool given_up = input.now - *failing_since_ >= params_.give_up_after;
   const double braking_s =
@@ -120,7 +122,7 @@ ReplanDecision Replanner::answer_failure(const Input& input, const Situation& si
                     to_seconds(*situation.conflict - input.now) <= braking_s;
   // From rest there may be a way where none is in flight.
   const bool rest_helps = situation.under_way && failure == PlanFailure::kNoTrajectory;
-  if (near || (given_up && rest_helps)) {
+  if (near || too_fast || (given_up && rest_helps)) {
     decision.action = brakes_++ < params_.max_brakes ? ReplanAction::kBrake : ReplanAction::kFail;
   } else if (given_up) {
     decision.action = ReplanAction::kFail;

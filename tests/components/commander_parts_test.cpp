@@ -6,6 +6,7 @@
 #include <array>
 
 #include "components/commander/attendance.hpp"
+#include "components/commander/authority_desk.hpp"
 #include "components/commander/director_params.hpp"
 #include "components/commander/limits_message.hpp"
 #include "components/commander/state_message.hpp"
@@ -30,6 +31,38 @@ ComponentStatus status(const std::string& component, const std::string& instance
   if (!problem.empty()) status.problems({problem});
   status.blocked(blocked);
   return status;
+}
+
+TEST(AuthorityDesk, SticksThatNobodyTouchesTakeNoControl) {
+  AuthorityDesk desk(30s);
+  const auto sticks = [](const std::string& station, float forward) {
+    swiftlet_msgs::msg::ManualControl message;
+    message.station(station);
+    message.forward(forward);
+    return message;
+  };
+  EXPECT_TRUE(desk.admits(sticks("base", 0.0f), Time(100s))) << "they are there";
+  EXPECT_EQ(desk.holder(Time(100s)), "");
+  EXPECT_TRUE(desk.admits(sticks("base", 0.5f), Time(101s)));
+  EXPECT_EQ(desk.holder(Time(101s)), "base");
+  EXPECT_FALSE(desk.admits(sticks("tablet", 0.5f), Time(102s)));
+  EXPECT_FALSE(desk.admits(sticks("tablet", 0.0f), Time(102s)));
+  EXPECT_TRUE(desk.admits(sticks("", 1.0f), Time(103s))) << "the vehicle's own remote control";
+  EXPECT_EQ(desk.holder(Time(103s)), "base");
+  EXPECT_TRUE(desk.admits(sticks("base", 0.0f), Time(130s)));
+  EXPECT_EQ(desk.holder(Time(155s)), "base") << "who has control shows that it is there";
+}
+
+TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
+  AuthorityDesk desk(30s);
+  ComponentStatus base, tablet;
+  base.instance("base");
+  tablet.instance("tablet");
+  EXPECT_TRUE(desk.is_of_holder(tablet, Time(100s))) << "nobody has control";
+  ASSERT_TRUE(desk.admit("base", Time(100s)).ok());
+  EXPECT_TRUE(desk.is_of_holder(base, Time(101s)));
+  EXPECT_FALSE(desk.is_of_holder(tablet, Time(101s)));
+  EXPECT_TRUE(desk.is_of_holder(tablet, Time(131s))) << "base has been away for too long";
 }
 
 TEST(Attendance, WhoWasNeverThereIsNotMissed) {

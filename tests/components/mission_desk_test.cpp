@@ -119,7 +119,7 @@ struct Desk : testing::Test {
   void upload(const std::string& id, const std::vector<MissionItem>& mission) {
     Items items;
     for (const MissionItem& item : mission) items.push_back(to_msg(item));
-    for (const auto& part : all_parts(id, items)) desk.hear(part, director);
+    for (const auto& part : all_parts(id, items)) desk.hear(part, director, kNow);
   }
   std::optional<Result<Acceptance>> order(std::uint8_t what) {
     swiftlet_msgs::msg::ModeCommand command;
@@ -180,18 +180,37 @@ TEST_F(Desk, ClearingForgetsTheMission) {
   EXPECT_EQ(desk.state(kNow).count(), 1U);
 }
 
+TEST_F(Desk, WhoMayNotUploadIsToldWithoutDisturbingWhoMay) {
+  std::mt19937 random(6);
+  Items items;
+  for (int i = 0; i < 20; ++i) items.push_back(to_msg(MissionItem()));
+  const auto mine = all_parts("mine", items), others = all_parts("theirs", random_items(random, 3));
+  desk.hear(mine[0], director, kNow);
+  desk.refuse(others[0], "not you", kNow + 1s);
+  EXPECT_FALSE(desk.state(kNow).upload_refused());
+  EXPECT_EQ(desk.state(kNow).upload_id(), "mine");
+  // Of who gave up midway nothing is waited for.
+  desk.refuse(others[0], "not you", kNow + 10s);
+  EXPECT_EQ(desk.state(kNow).upload_id(), "theirs");
+  EXPECT_EQ(desk.state(kNow).upload_reason(), "not you");
+  desk.hear(others[0], director, kNow + 11s);
+  EXPECT_EQ(desk.state(kNow).count(), 0U) << "what was refused stays so";
+  for (const auto& part : all_parts("again", items)) desk.hear(part, director, kNow + 12s);
+  EXPECT_EQ(desk.state(kNow).count(), 20U);
+}
+
 TEST_F(Desk, PartsOfAnEarlierUploadThatAreLateDisturbNothing) {
   std::mt19937 random(5);
   const auto earlier = all_parts("a", random_items(random, 20));
   Items items;
   for (int i = 0; i < 20; ++i) items.push_back(to_msg(MissionItem()));
   const auto later = all_parts("b", items);
-  desk.hear(earlier[0], director);
-  desk.hear(later[0], director);
-  desk.hear(earlier[1], director);
-  desk.hear(later[1], director);
+  desk.hear(earlier[0], director, kNow);
+  desk.hear(later[0], director, kNow);
+  desk.hear(earlier[1], director, kNow);
+  desk.hear(later[1], director, kNow);
   EXPECT_EQ(desk.state(kNow).upload_id(), "b");
-  desk.hear(later[2], director);
+  desk.hear(later[2], director, kNow);
   EXPECT_EQ(desk.state(kNow).id(), "b");
   EXPECT_EQ(desk.whole(kNow).items(), items);
 }

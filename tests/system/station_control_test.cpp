@@ -53,8 +53,13 @@ TEST_F(StationControl, ASecondStationIsRefusedUntilControlIsHandedOver) {
 
   accepted("base", {"takeoff", "1", "--wait"});
   // Sticks of the second station are not heard: the vehicle hovers on.
-  accepted("tablet", {"stick", "--forward", "1", "--for", "1"});
+  refused("tablet", {"stick", "--forward", "1", "--for", "1"}, "base");
   EXPECT_EQ(status()["mode"], "Hover");
+
+  environment_["SWIFTLET_STATION"] = "tablet";
+  EXPECT_THAT(gcs({"land"}).err, HasSubstr("not 'tablet'")) << "a name from the environment";
+  accepted("base", {"hover"});  // the option wins
+  environment_.erase("SWIFTLET_STATION");
 
   accepted("base", {"control", "give", "tablet"});
   EXPECT_EQ(status()["control"], "tablet");

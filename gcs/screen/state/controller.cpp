@@ -233,9 +233,8 @@ std::vector<Action> Controller::accept_global() {
 
 void Controller::view_events(Deed deed) {
   constexpr int kStep = 3;
-  constexpr int kMost = 2000;
   if (deed == Deed::kLeave) close();
-  if (deed == Deed::kUp) events_up_ = std::min(events_up_ + kStep, kMost);
+  if (deed == Deed::kUp) events_up_ = events_up_ + kStep;
   if (deed == Deed::kDown) events_up_ = std::max(events_up_ - kStep, 0);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ class Controller {
   ParameterList& parameters() { return parameters_; }
   /// Lines up from the newest, of the events that are viewed.
   int events_up() const { return events_up_; }
+  /// Not farther than to the oldest, which only who draws them knows.
+  void limit_events_up(int most) { events_up_ = std::min(events_up_, most); }
   MapCamera& camera() { return map_.camera(); }
   const MapCamera& camera() const { return map_.camera(); }
   /// The question or what is to be written.

@@ -30,7 +30,7 @@ class MissionErrandTest : public testing::Test {
   MissionErrand::Step step() {
     now += 50ms;
     MissionErrand::Step step = errand.advance(now);
-    for (const auto& part : step.outgoing.parts) desk.hear(part, director);
+    for (const auto& part : step.outgoing.parts) desk.hear(part, director, now);
     if (step.outgoing.fetch) {
       for (const auto& part : desk.answer(*step.outgoing.fetch, now)) errand.hear(part, now);
     }

@@ -87,7 +87,7 @@ struct Far {
   /// A step of 50 ms for both ends.
   void step(MissionUpload* upload, MissionDownload* download) {
     now += 50ms;
-    up.deliver(now, [&](const auto& part) { desk.hear(part, director); });
+    up.deliver(now, [&](const auto& part) { desk.hear(part, director, now); });
     fetches.deliver(now, [&](const auto& fetch) {
       for (const auto& part : desk.answer(fetch, now)) parts.send(part, now);
     });
@@ -150,7 +150,7 @@ TEST(MissionTransfer, ABadLinkBringsTheWholeMissionOrNothing) {
     Far far(link, seed);
     const auto old = random_mission(far.random, 5);
     for (const auto& part : make_parts(far.now, "old", old, {0, 1, 2, 3, 4})) {
-      far.desk.hear(part, far.director);
+      far.desk.hear(part, far.director, far.now);
     }
     const auto items = random_mission(far.random, 200);
     MissionUpload upload("new", items, far.now, {});
@@ -209,7 +209,7 @@ TEST(MissionTransfer, DamageOnTheWayIsRefused) {
   const auto items = random_mission(far.random, 4);
   auto parts = make_parts(far.now, "a", items, {0, 1, 2, 3});
   parts.front().items().front().place().position().x(17.0);
-  far.desk.hear(parts.front(), far.director);
+  far.desk.hear(parts.front(), far.director, far.now);
   const auto state = far.desk.state(far.now);
   EXPECT_TRUE(state.upload_refused());
   EXPECT_THAT(state.upload_reason(), HasSubstr("checksum is wrong"));

@@ -122,6 +122,24 @@ TEST(Replanner, TakesAShortcutThatOpens) {
   EXPECT_LT(to_seconds(flight.current.duration()), 0.8 * around);
 }
 
+TEST(Replanner, NewLimitsCountForWhatIsFlown) {
+  Flight flight(test::hall(12, 4), {1, 2, 1}, {11, 2, 1});
+  while (flight.current.empty() || flight.current.evaluate(flight.now).velocity.x() < 0.8) {
+    flight.fly(0.05);
+    ASSERT_LT(to_seconds(flight.now), 30.0);
+  }
+  Replanner::Params slower = flight.replanner.params();
+  slower.trajectory.minimum_snap.limits.max_speed = 0.4;
+  flight.replanner.set_params(slower);
+  const ReplanDecision decision = flight.step();
+  EXPECT_EQ(decision.action, ReplanAction::kBrake) << "it is too fast for them";
+  flight.fly(3.0);
+  EXPECT_GT(flight.vehicle.v_WB_W.norm(), 0.1) << "from rest it goes on";
+  EXPECT_LE(flight.current.max_speed(), 0.4 + 1e-6);
+  flight.fly(60.0);
+  EXPECT_LT((flight.vehicle.p_WB - Eigen::Vector3d(11, 2, 1)).norm(), 1e-6);
+}
+
 TEST(Replanner, NoiseInTheMapIsNoReasonToChange) {
   Flight flight(test::hall(10, 8), {1, 4, 1}, {9, 4, 1});
   flight.fly(2.0);
