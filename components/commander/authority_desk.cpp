@@ -33,7 +33,7 @@ Status AuthorityDesk::admit(const std::string& station, Time now) {
   return authority_.claim(name_of(station), now);
 }
 
-bool AuthorityDesk::admits(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
+bool AuthorityDesk::admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
   if (sticks.station().empty()) return true;
   // Who touches nothing takes nothing.
   const bool asks = holder(now) == sticks.station() || !is_centred(sticks);

@@ -97,7 +97,7 @@ class Commander : public Component {
     subscribe(
         topic::manual_control,
         [this](const swiftlet_msgs::msg::ManualControl& sticks) {
-          if (authority_.admits(sticks, now())) director_.set_sticks(from_msg(sticks), now());
+          if (authority_.admit_sticks(sticks, now())) director_.set_sticks(from_msg(sticks), now());
         },
         Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {

@@ -41,15 +41,16 @@ TEST(AuthorityDesk, SticksThatNobodyTouchesTakeNoControl) {
     message.forward(forward);
     return message;
   };
-  EXPECT_TRUE(desk.admits(sticks("base", 0.0f), Time(100s))) << "they are there";
+  EXPECT_TRUE(desk.admit_sticks(sticks("base", 0.0f), Time(100s))) << "they are there";
   EXPECT_EQ(desk.holder(Time(100s)), "");
-  EXPECT_TRUE(desk.admits(sticks("base", 0.5f), Time(101s)));
+  EXPECT_TRUE(desk.admit_sticks(sticks("base", 0.5f), Time(101s)));
   EXPECT_EQ(desk.holder(Time(101s)), "base");
-  EXPECT_FALSE(desk.admits(sticks("tablet", 0.5f), Time(102s)));
-  EXPECT_FALSE(desk.admits(sticks("tablet", 0.0f), Time(102s)));
-  EXPECT_TRUE(desk.admits(sticks("", 1.0f), Time(103s))) << "the vehicle's own remote control";
+  EXPECT_FALSE(desk.admit_sticks(sticks("tablet", 0.5f), Time(102s)));
+  EXPECT_FALSE(desk.admit_sticks(sticks("tablet", 0.0f), Time(102s)));
+  EXPECT_TRUE(desk.admit_sticks(sticks("", 1.0f), Time(103s)))
+      << "the vehicle's own remote control";
   EXPECT_EQ(desk.holder(Time(103s)), "base");
-  EXPECT_TRUE(desk.admits(sticks("base", 0.0f), Time(130s)));
+  EXPECT_TRUE(desk.admit_sticks(sticks("base", 0.0f), Time(130s)));
   EXPECT_EQ(desk.holder(Time(155s)), "base") << "who has control shows that it is there";
 }
 
