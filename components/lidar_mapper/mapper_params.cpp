@@ -41,8 +41,8 @@ MapperParams read_mapper_params(const Config& config) {
 
   LidarSlam::Params& slam = params.lidar_slam;
   config.read("slam", params.slam);
-  config.read("max_speed", slam.max_speed, kPositive);
-  config.read("max_yaw_rate", slam.max_yaw_rate, kPositive);
+  config.read("max_speed", slam.motion.max_speed, kPositive);
+  config.read("max_yaw_rate", slam.motion.max_yaw_rate, kPositive);
   config.read("odometry_distance", slam.odometry_distance, kPositive);
   config.read("odometry_distance_per_metre", slam.odometry_distance_per_metre, kNotNegative);
   config.read("odometry_angle", slam.odometry_angle, kPositive);

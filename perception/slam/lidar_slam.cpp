@@ -11,6 +11,7 @@ namespace swiftlet {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Searched to either side of what odometry says, in its standard deviations.
@@ -55,16 +56,14 @@ LidarSlam::Prediction LidarSlam::predict(Time time, const std::optional<Pose2>& 
     return prediction;
   }
   prediction.pose = last_pose;
-  if (scans_.size() > 1 && seconds < params_.max_prediction) {
-    const ScanNode& before = scans_[scans_.size() - 2];
-    const double whole = to_seconds(last.time - before.time);
-    if (whole > 0.0 && whole < params_.max_prediction) {
-      const Pose2 before_that = pose_of(before).inverse() * last_pose;
-      prediction.pose = last_pose * between(Pose2{}, before_that, std::min(1.0, seconds / whole));
-    }
+  if (const auto motion = motion_.predict(seconds)) {
+    prediction.pose = last_pose * motion->relative;
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(last_pose.yaw).toRotationMatrix();
+    prediction.covariance = R * motion->covariance.topLeftCorner<2, 2>() * R.transpose();
   }
-  const double reach = std::min(params_.max_distance, kRestDistance + params_.max_speed * seconds);
-  const double angle = std::min(M_PI, kRestAngle + params_.max_yaw_rate * seconds);
+  const double reach =
+      std::min(params_.max_distance, kRestDistance + params_.motion.max_speed * seconds);
+  const double angle = std::min(M_PI, kRestAngle + params_.motion.max_yaw_rate * seconds);
   prediction.window = {reach, angle, 0.3, 0.05, 0.05};
   prediction.sigma = {0.5 * reach, 0.5 * reach, 0.5 * angle};
   return prediction;
@@ -84,6 +83,24 @@ std::vector<int> LidarSlam::keyframes_for(const Eigen::Vector2d& place) const {
   return which;
 }
 
+/// Along the direction in which a scan does not tell the place, and along no other, the last motion
+/// goes on (Zhang, Kaess and Singh, On Degeneracy of Optimization-based State Estimation Problems,
+/// 2016).
+ScanMatch LidarSlam::going_on(const Keyframe& scan, const ScanMatch& match,
+                              const Prediction& prediction) const {
+  const LeastKnown least = least_known(match.fine);
+  if (!prediction.covariance || least.information >= params_.least_information) return match;
+  const Vector2d& e = least.direction;
+  PosePrior prior{prediction.pose, Matrix3d::Zero()};
+  prior.information.topLeftCorner<2, 2>() =
+      params_.noise.variance() / e.dot(*prediction.covariance * e) * e * e.transpose();
+  Pose2 guess = match.pose();
+  guess.position += e * e.dot(prediction.pose.position - guess.position);
+  const LineMatch held = recent_map_->align(scan, guess, prior);
+  // Where it then fits worse, the scan did tell, and the vehicle did not go on.
+  return held.inliers < match.fine.inliers - kClearlyMore ? match : ScanMatch{match.score, held};
+}
+
 /// With the last keyframes, or, where those do not help, with all that is near.
 std::optional<ScanMatch> LidarSlam::match(const Keyframe& scan, const Prediction& prediction) {
   const std::vector<int> recent = keyframes_for(prediction.pose.position);
@@ -92,6 +109,7 @@ std::optional<ScanMatch> LidarSlam::match(const Keyframe& scan, const Prediction
     recent_map_of_ = recent;
   }
   auto match = recent_map_->match(scan, prediction.pose, prediction.window, prediction.prior);
+  if (match) match = going_on(scan, *match, prediction);
   if (match && match->fine.inliers >= params_.least_overlap) return match;
 
   std::vector<int> near;
@@ -141,6 +159,11 @@ LidarSlam::Update LidarSlam::add(Time time, ScanPoints points,
     update.covariance = squared(prediction.sigma);
     edge.information = squared(prediction.sigma).inverse();
   }
+  const ScanNode& before = scans_.back();
+  const Pose2 pose_before = pose_of(before);
+  motion_.update(
+      to_seconds(time - before.time), pose_before.inverse() * update.pose,
+      found ? information_in(found->fine, pose_before.yaw, params_.noise) : Matrix3d::Zero());
   edge.relative = last_pose.inverse() * update.pose;
   update.is_keyframe =
       !map_is_fixed_ && (update.overlap < 1.2 * params_.least_overlap ||

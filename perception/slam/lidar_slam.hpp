@@ -7,6 +7,7 @@
 
 #include "perception/slam/local_map.hpp"
 #include "perception/slam/loop_closer.hpp"
+#include "perception/slam/motion_model.hpp"
 #include "perception/slam/neighbour_aligner.hpp"
 #include "perception/slam/pose_graph.hpp"
 #include "perception/slam/slam_graph.hpp"
@@ -36,10 +37,11 @@ class LidarSlam {
     double least_overlap = 0.5;       ///< share of points with a partner, below which it is weak
     double weak_score = 0.45;         ///< of the search, below which a weak match is none
     // Without odometry: what the vehicle may have done since the last scan.
-    double max_speed = 0.9;       ///< [m/s]
-    double max_yaw_rate = 1.2;    ///< [rad/s]
-    double max_distance = 6.0;    ///< is searched for, however long it has been [m]
-    double max_prediction = 0.6;  ///< that long a motion is thought to go on [s]
+    MotionModel::Params motion;
+    double max_distance = 6.0;  ///< is searched for, however long it has been [m]
+    /// Of the position, in points: where a scan tells less about a direction, the last motion goes
+    /// on along it.
+    double least_information = 40.0;
     // With odometry: how far off that may be.
     double odometry_distance = 0.02;            ///< at rest [m]
     double odometry_distance_per_metre = 0.05;  ///<
@@ -61,7 +63,7 @@ class LidarSlam {
   };
 
   LidarSlam() : LidarSlam(Params{}) {}
-  explicit LidarSlam(const Params& params) : params_(params) {}
+  explicit LidarSlam(const Params& params) : params_(params), motion_(params.motion) {}
 
   /// Where a scan was taken. `odometry`: the scanner's pose, as wheels or another estimate have it;
   /// passed over where it is not finite or has jumped.
@@ -119,10 +121,13 @@ class LidarSlam {
     Pose2 pose;
     SearchWindow window;
     std::optional<PosePrior> prior;
-    Eigen::Vector3d sigma;  ///< where nothing better is known
+    std::optional<Eigen::Matrix2d> covariance;  ///< of the position, where the last motion goes on
+    Eigen::Vector3d sigma;                      ///< where nothing better is known
   };
   Prediction predict(Time time, const std::optional<Pose2>& odometry) const;
   std::optional<ScanMatch> match(const Keyframe& scan, const Prediction& prediction);
+  ScanMatch going_on(const Keyframe& scan, const ScanMatch& match,
+                     const Prediction& prediction) const;
   std::vector<int> keyframes_for(const Eigen::Vector2d& place) const;
   void add_keyframe(Keyframe keyframe, const Pose2& pose);
   Pose2 pose_of(const ScanNode& scan) const {
@@ -135,6 +140,7 @@ class LidarSlam {
   std::vector<Pose2> poses_;
   std::vector<PoseConstraint> constraints_;
   std::vector<ScanNode> scans_;
+  MotionModel motion_;
   std::optional<LocalMap> recent_map_;  ///< of `recent_map_of_`, while nothing has moved
   std::vector<int> recent_map_of_;
   int first_new_ = 0;      ///< keyframe that no job has had yet

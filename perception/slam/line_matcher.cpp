@@ -3,6 +3,7 @@
 #include "perception/slam/line_matcher.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -115,6 +116,12 @@ LineMatch match_lines(const SurfaceIndex& map, const ScanPoints& scan, const Pos
     }
   }
   return match;
+}
+
+LeastKnown least_known(const LineMatch& match) {
+  const Eigen::Matrix2d of_position = match.information.topLeftCorner<2, 2>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(of_position);
+  return {solver.eigenvectors().col(0), solver.eigenvalues()[0]};
 }
 
 Matrix3d information_in(const LineMatch& match, double yaw, const LineMatchNoise& noise) {

@@ -60,6 +60,14 @@ LineMatch match_lines(const SurfaceIndex& map, const ScanPoints& scan, const Pos
                       const LineMatchParams& params = {},
                       const std::optional<PosePrior>& prior = std::nullopt);
 
+/// What a match tells least of the position: the direction, in the map, and how many points tell
+/// it.
+struct LeastKnown {
+  Eigen::Vector2d direction;
+  double information;
+};
+LeastKnown least_known(const LineMatch& match);
+
 /// How good the points of a scan are.
 struct LineMatchNoise {
   double sigma = 0.03;  ///< of a point's distance to its line [m]

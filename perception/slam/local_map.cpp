@@ -54,7 +54,7 @@ std::optional<ScanMatch> LocalMap::match(const Keyframe& scan, const Pose2& gues
                                          const std::optional<PosePrior>& prior) const {
   const auto coarse = find_best_match(field_, scan.sparse, guess, window);
   if (!coarse) return std::nullopt;
-  return ScanMatch{coarse->score, match_lines(surfaces_, scan.points, coarse->pose, {}, prior)};
+  return ScanMatch{coarse->score, align(scan, coarse->pose, prior)};
 }
 
 }  // namespace swiftlet

@@ -46,6 +46,12 @@ class LocalMap {
                                  const SearchWindow& window,
                                  const std::optional<PosePrior>& prior = std::nullopt) const;
 
+  /// Aligns from a guess that is near already.
+  LineMatch align(const Keyframe& scan, const Pose2& guess,
+                  const std::optional<PosePrior>& prior) const {
+    return match_lines(surfaces_, scan.points, guess, {}, prior);
+  }
+
  private:
   explicit LocalMap(ScanPoints points);
   LikelihoodField field_;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "perception/slam/loop_closer.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace swiftlet {
@@ -40,9 +39,7 @@ std::vector<Chain> chains_near(const std::vector<Pose2>& poses, int newest,
 
 bool is_convincing(const ScanMatch& match, const LoopCloserParams& params) {
   if (match.fine.inliers < params.least_inliers || match.fine.rms > params.most_rms) return false;
-  const Eigen::Matrix2d of_position = match.fine.information.topLeftCorner<2, 2>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(of_position, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] >= params.least_information;
+  return least_known(match.fine).information >= params.least_information;
 }
 
 }  // namespace

@@ -111,6 +111,36 @@ TEST(LidarSlam, OdometryThatJumpsOrIsNoNumberIsPassedOver) {
   }
 }
 
+/// Four blocks that are alike, with bare corridors around them and between.
+FloorPlan alike_blocks() {
+  FloorPlan plan;
+  plan.add_box({0, 0}, {30, 20});
+  for (const double x : {2.2, 16.0}) {
+    for (const double y : {2.2, 11.2}) plan.add_box({x, y}, {x + 11.6, y + 6.6});
+  }
+  return plan;
+}
+
+TEST(LidarSlam, InBareCorridorsItGoesOnAsFastAsItCame) {
+  Drive drive(9, alike_blocks());
+  drive.field_of_view = M_PI;
+  const Vector2d south_west(1.2, 1.2), south(14.9, 1.2), middle(14.9, 10.0), west(1.2, 10.0),
+      east(28.9, 10.0), north_east(28.9, 18.9), north(14.9, 18.9);
+  drive.along(way_along(
+      {south_west, south, middle, east, north_east, north, middle, west, south_west, south}, 0.0));
+  EXPECT_EQ(drive.lost, 0);
+  EXPECT_LT(largest(drive.errors(drive.live)), 0.4);
+  EXPECT_LT(mean(drive.errors(drive.now())), 0.04);
+}
+
+TEST(LidarSlam, WhoStopsWhereThereIsSomethingToSeeIsNotThoughtToGoOn) {
+  Drive drive(10);
+  drive.along(way_along({{1.5, 1.5}, {12.0, 1.6}}, 0.0));
+  const Pose2 stop = drive.truth.back();
+  for (int i = 0; i < 20; ++i) drive.see(stop, static_cast<double>(drive.truth.size()) / kRate_hz);
+  EXPECT_LT(drive.errors(drive.live).back(), 0.05);
+}
+
 TEST(LidarSlam, ACorridorIsUncertainAlongItsAxis) {
   FloorPlan corridor;
   corridor.add_wall({-200, -1.2}, {200, -1.2});

@@ -151,5 +151,22 @@ TEST(SurfaceIndex, TheNearestIsTheNearestOfAll) {
   }
 }
 
+TEST(LineMatcher, ItKnowsWhichWayACorridorGoes) {
+  std::mt19937 random(5);
+  for (const double direction : {0.0, 0.7, 2.0}) {
+    const Vector2d along(std::cos(direction), std::sin(direction)), across(-along.y(), along.x());
+    FloorPlan corridor;
+    for (const double side : {-1.2, 1.2}) {
+      corridor.add_wall(side * across - 100.0 * along, side * across + 100.0 * along);
+    }
+    const ScanPoints seen = seen_from(corridor, Pose2{}, 0.0, random);
+    const LeastKnown least = least_known(match_lines(SurfaceIndex(seen), seen, Pose2{}));
+    EXPECT_NEAR(std::abs(least.direction.dot(along)), 1.0, 1e-3) << direction;
+    EXPECT_LT(least.information, 1.0) << direction;
+  }
+  const ScanPoints seen = seen_from(office_floor(), kPlace, 0.0, random);
+  EXPECT_GT(least_known(match_lines(SurfaceIndex(seen), seen, Pose2{})).information, 100.0);
+}
+
 }  // namespace
 }  // namespace swiftlet::test
