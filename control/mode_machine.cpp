@@ -30,6 +30,8 @@ constexpr Mode kExploration = Mode::kIndoorExploration;
 
 // A take-off to an altitude this close to the last one is the same take-off [m].
 constexpr double kSameAltitude = 1e-3;
+// Who hovers this close to the altitude of its take-off has not flown on since [m].
+constexpr double kStillThere = 0.2;
 
 /// One answer of a mode.
 struct Cell {
@@ -307,12 +309,8 @@ Result<Acceptance> ModeMachine::request(const Request& request, const Situation&
   const RequestRule& rule = ModeMachine::rule(mode_, armed_, request.kind);
   if (rule.answer == kRefuse) return refuse(rule.reason);
   if (rule.answer == kAlready) {
-    // Another altitude is another request, and the climb is not for changing.
-    const bool same = std::abs(request.altitude - takeoff_altitude_) <= kSameAltitude;
-    if (request.kind == Kind::kTakeoff && !same) {
-      return refuse(fmt::format("{} already, to {:.2f} m", rule.reason, takeoff_altitude_));
-    }
-    return Acceptance::kUnchanged;
+    return request.kind == Kind::kTakeoff ? take_off_again(request, situation)
+                                          : Result<Acceptance>(Acceptance::kUnchanged);
   }
   if (is_flown_already(request)) return Acceptance::kUnchanged;
   if (const auto error = objection(request, situation)) return refuse(error->reason);
@@ -325,6 +323,23 @@ Result<Acceptance> ModeMachine::request(const Request& request, const Situation&
   mode_ = rule.to;
   blind_ = mode_ == kLand && !situation.estimate_ok;
   return Acceptance::kChanged;
+}
+
+/// Another altitude is another request, and neither a climb nor a flight is changed by it.
+Result<Acceptance> ModeMachine::take_off_again(const Request& request,
+                                               const Situation& situation) const {
+  const bool climbs = mode_ == kTakeoff;
+  const bool same = std::abs(request.altitude - takeoff_altitude_) <= kSameAltitude;
+  const bool there = climbs || std::abs(situation.height - request.altitude) <= kStillThere;
+  if (same && there) return Acceptance::kUnchanged;
+  if (climbs) {
+    return Error{
+        fmt::format("takeoff refused: taking off already, to {:.2f} m", takeoff_altitude_)};
+  }
+  return Error{
+      fmt::format("takeoff refused: in the air already, at {:.2f} m; goto X Y Z changes "
+                  "the height",
+                  situation.height)};
 }
 
 /// The same mission again, or the way home again.

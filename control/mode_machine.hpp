@@ -207,6 +207,7 @@ class ModeMachine {
 
  private:
   std::optional<Error> objection(const Request& request, const Situation& situation) const;
+  Result<Acceptance> take_off_again(const Request& request, const Situation& situation) const;
   bool is_flown_already(const Request& request) const;
   bool holds(EventRule::Event event, const Situation& situation) const;
   std::string reason(EventRule::Event event, const Situation& situation) const;

@@ -164,9 +164,23 @@ TEST(ModeMachineRequests, ATakeoffToAnotherAltitudeIsAnotherRequest) {
     ModeMachine machine = in(mode);
     const auto result = machine.request(Request::takeoff(2.0), flying());
     ASSERT_FALSE(result.ok());
-    EXPECT_THAT(result.error().reason, HasSubstr("already, to 1.20 m"));
+    EXPECT_THAT(result.error().reason,
+                HasSubstr(mode == Mode::kTakeoff ? "taking off already, to 1.20 m"
+                                                 : "in the air already, at 1.20 m"));
     EXPECT_EQ(machine.takeoff_altitude(), 1.2);
   }
+}
+
+TEST(ModeMachineRequests, ATakeoffIsNotDoneBecauseItWasOnce) {
+  ModeMachine machine = in(Mode::kHover);
+  Situation elsewhere = flying();
+  elsewhere.height = 0.4;
+  const auto result = machine.request(Request::takeoff(1.2), elsewhere);
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(result.error().reason, HasSubstr("in the air already, at 0.40 m; goto X Y Z"));
+  // Whoever is still climbing gets there.
+  machine = in(Mode::kTakeoff);
+  EXPECT_TRUE(machine.request(Request::takeoff(1.2), elsewhere).ok());
 }
 
 TEST(ModeMachineRequests, AnotherMissionReplacesTheOneThatIsFlown) {
