@@ -123,7 +123,7 @@ std::string FlightDirector::not_ready_reason(Time now) const {
   if (!estimate.empty()) return estimate;
   if (!(heading_sigma_ <= params_.heading_sigma_to_arm)) {
     return fmt::format("heading is known to {:.3f} rad only, {:.3f} are needed; wait",
-                       heading_sigma_, params_.heading_sigma_to_arm);
+                       std::ceil(1e3 * heading_sigma_) / 1e3, params_.heading_sigma_to_arm);
   }
   if (const double left = params_.settling_to_arm - age(now, estimate_since_); left > 0.0) {
     return fmt::format("the estimate settles for {:.1f} s more", left);

@@ -191,7 +191,7 @@ class FlightDirector {
   /// The same in straight lines, each leg at the height of its end (GPS Guidance).
   Result<Acceptance> fly_straight(std::uint64_t id, const std::vector<MissionWaypoint>& waypoints,
                                   Time now, std::size_t first_number = 1);
-  /// Why a place cannot be flown to; "" where it can.
+  /// Why a place cannot be flown to indoors; "" where it can.
   std::string waypoint_problem(const MissionWaypoint& waypoint) const;
   void set_plan(const PlanAnswer& answer);
   /// Where to fly in Indoor Exploration; heard at `now`.
@@ -243,8 +243,9 @@ class FlightDirector {
   double way_to_fence(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
   std::string fence_problem(const Eigen::Vector3d& place, double slack = 0.0) const;
   std::string plan_leaves_fence(const Trajectory& plan) const;
+  std::string place_problem(const MissionWaypoint& waypoint, double highest) const;
   std::string mission_problem(const std::vector<MissionWaypoint>& waypoints,
-                              std::size_t first_number) const;
+                              std::size_t first_number, double highest) const;
   Result<Acceptance> begin(const Request& request, const std::vector<MissionWaypoint>& waypoints,
                            Time now, std::size_t first_number);
   Result<Acceptance> go_back(Time now);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/flight_director.hpp"
 
@@ -24,8 +25,9 @@ constexpr double kStopMargin = 0.30;
 Result<Acceptance> FlightDirector::fly_straight(std::uint64_t id,
                                                 const std::vector<MissionWaypoint>& waypoints,
                                                 Time now, std::size_t first_number) {
-  return begin(Request::gps(id, mission_problem(waypoints, first_number)), waypoints, now,
-               first_number);
+  return begin(Request::gps(id, mission_problem(waypoints, first_number,
+                                                std::numeric_limits<double>::infinity())),
+               waypoints, now, first_number);
 }
 
 /// At first to the height of the leg's end, then straight there. What the LIDAR sees on the way

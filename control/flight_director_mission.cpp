@@ -41,27 +41,41 @@ bool moderate(const Trajectory& plan) {
 
 /// Why a mission cannot be flown; "" where it can.
 std::string FlightDirector::mission_problem(const std::vector<MissionWaypoint>& waypoints,
-                                            std::size_t first_number) const {
+                                            std::size_t first_number, double highest) const {
   if (waypoints.empty()) return "it has no waypoints";
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const std::string problem = waypoint_problem(waypoints[i]);
+    const std::string problem = place_problem(waypoints[i], highest);
     if (!problem.empty()) return fmt::format("waypoint {} is {}", first_number + i, problem);
   }
   return "";
 }
 
 std::string FlightDirector::waypoint_problem(const MissionWaypoint& waypoint) const {
+  return place_problem(waypoint, params_.modes.max_altitude);
+}
+
+/// `highest`: above the take-off point.
+std::string FlightDirector::place_problem(const MissionWaypoint& waypoint, double highest) const {
   const Eigen::Vector3d& position = waypoint.position;
   const bool usable = position.allFinite() && position.cwiseAbs().maxCoeff() < kFarthestWaypoint &&
                       std::isfinite(waypoint.yaw.value_or(0.0)) &&
                       waypoint.speed.value_or(kLeastSpeed) >= kLeastSpeed;
-  return usable ? fence_problem(position) : "not a place that can be flown to";
+  if (!usable) return "not a place that can be flown to";
+  const double height = position.z() - flying_.takeoff_point.z();
+  if (height < params_.ground_height) {
+    return fmt::format("{:.2f} m above the take-off point; {:.2f} m are the least", height,
+                       params_.ground_height);
+  }
+  if (height > highest) {
+    return fmt::format("{:.2f} m above the take-off point; {:.2f} m are the most", height, highest);
+  }
+  return fence_problem(position);
 }
 
 Result<Acceptance> FlightDirector::fly(std::uint64_t id,
                                        const std::vector<MissionWaypoint>& waypoints, Time now,
                                        std::size_t first_number) {
-  std::string problem = mission_problem(waypoints, first_number);
+  std::string problem = mission_problem(waypoints, first_number, params_.modes.max_altitude);
   if (problem.empty()) problem = guidance_problem_;
   return begin(Request::navigate(id, problem), waypoints, now, first_number);
 }

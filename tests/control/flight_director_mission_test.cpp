@@ -68,6 +68,21 @@ TEST(FlightDirectorMission, FliesThroughItsWaypointsAndRestsAtEach) {
   EXPECT_EQ(flight.status().waypoint, 1u);
 }
 
+TEST(FlightDirectorMission, HeightsThatCannotBeFlownAreRefused) {
+  Hovering flight;
+  const auto refusal = [&flight](double height) {
+    const auto result = flight.director.fly(7, {{{2.0, 0.0, height}, {}}}, flight.now);
+    return result.ok() ? "" : result.error().reason;
+  };
+  EXPECT_THAT(refusal(-1.0),
+              HasSubstr("waypoint 1 is -1.00 m above the take-off point; 0.25 m are"));
+  EXPECT_THAT(refusal(0.1), HasSubstr("the least"));
+  EXPECT_THAT(refusal(90.0), HasSubstr("90.00 m above the take-off point; 10.00 m are the most"));
+  EXPECT_EQ(flight.mode(), Mode::kHover);
+  // On Earth it is the fence that says how high.
+  EXPECT_TRUE(flight.director.fly_straight(8, {{{2.0, 0.0, 90.0}, {}}}, flight.now).ok());
+}
+
 TEST(FlightDirectorMission, ReplansInFlightLeaveNoStep) {
   Hovering flight;
   int plans = 0;
