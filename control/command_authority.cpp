@@ -15,17 +15,26 @@ Status CommandAuthority::claim(const std::string& station, Time now) {
                     current, station, station, to_seconds(lease_))};
   }
   state_ = {station, now};
+  giver_.clear();
   return {};
 }
 
+Status CommandAuthority::take(const std::string& station, Time now) {
+  if (!station.empty() && station == giver_) state_ = {};
+  return claim(station, now);
+}
+
 void CommandAuthority::hear(const std::string& station, Time now) {
-  if (!station.empty() && holder(now) == station) state_.heard = now;
+  if (station.empty() || holder(now) != station) return;
+  state_.heard = now;
+  giver_.clear();
 }
 
 Status CommandAuthority::give(const std::string& station, const std::string& successor, Time now) {
   if (successor.empty()) return Error{"control give refused: give it to whom?"};
   if (Status claimed = claim(station, now); !claimed.ok()) return claimed;
   state_.holder = successor;
+  if (successor != station) giver_ = station;
   return {};
 }
 

@@ -25,9 +25,12 @@ class CommandAuthority {
   /// Whether a command of this station is to be carried out; where nobody has control, it has from
   /// now on. An error says who has, and what to do.
   Status claim(const std::string& station, Time now);
+  /// As `claim`; and who gave control to a station that was not heard since may have it back.
+  Status take(const std::string& station, Time now);
   /// A sign of life of a station.
   void hear(const std::string& station, Time now);
-  /// The next holder is `successor`, for the lease at least; only the holder may say so.
+  /// The next holder is `successor`, for the lease at least; only the holder may say so. A name
+  /// that nobody has is not found out here: `take` undoes it.
   Status give(const std::string& station, const std::string& successor, Time now);
   /// Nobody has control, and the next that commands gets it; only the holder may say so.
   Status release(const std::string& station, Time now);
@@ -41,6 +44,7 @@ class CommandAuthority {
  private:
   Duration lease_;
   State state_;
+  std::string giver_;  ///< of whom who has control now has it, until that one is heard
 };
 
 }  // namespace swiftlet

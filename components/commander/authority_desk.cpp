@@ -46,7 +46,7 @@ std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
   const std::string station = name_of(command.station());
   switch (command.command()) {
     case CONTROL_TAKE:
-      return accepted_if(authority_.claim(station, now));
+      return accepted_if(authority_.take(station, now));
     case CONTROL_GIVE:
       return accepted_if(authority_.give(station, command.successor(), now));
     case CONTROL_RELEASE:

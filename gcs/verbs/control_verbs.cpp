@@ -42,8 +42,9 @@ void add_control_verbs(CLI::App& gcs, const std::shared_ptr<GroundOptions>& grou
   const auto successor = std::make_shared<std::string>();
   add_verb(*control, ground, "take", "Take control, where no other station has it",
            command::CONTROL_TAKE, nobody);
-  add_verb(*control, ground, "give", "Hand control over to another station", command::CONTROL_GIVE,
-           successor)
+  add_verb(*control, ground, "give",
+           "Hand control over to another station; take undoes it until that one is heard",
+           command::CONTROL_GIVE, successor)
       ->add_option("station", *successor, "Its name (--station there; else its host's name)")
       ->required();
   add_verb(*control, ground, "release", "Let control go, to whoever commands next",

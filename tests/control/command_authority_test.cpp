@@ -60,6 +60,30 @@ TEST_F(CommandAuthorityTest, WhoIsGivenControlHasTheLeaseToUseIt) {
   EXPECT_EQ(authority.holder(kBegin + 56s), "");
 }
 
+TEST_F(CommandAuthorityTest, WhoGaveControlToNobodyMayHaveItBack) {
+  ASSERT_TRUE(authority.claim("base", kBegin).ok());
+  ASSERT_TRUE(authority.give("base", "tabelt", kBegin).ok());
+  EXPECT_FALSE(authority.claim("base", kBegin + 1s).ok()) << "it has to say that it wants it";
+  EXPECT_FALSE(authority.take("tablet", kBegin + 1s).ok()) << "nobody else may";
+  EXPECT_TRUE(authority.take("base", kBegin + 1s).ok());
+  EXPECT_EQ(authority.holder(kBegin + 1s), "base");
+}
+
+TEST_F(CommandAuthorityTest, WhoWasHeardSinceKeepsWhatItWasGiven) {
+  for (const bool commands : {false, true}) {
+    CommandAuthority handed{kLease};
+    ASSERT_TRUE(handed.claim("base", kBegin).ok());
+    ASSERT_TRUE(handed.give("base", "tablet", kBegin).ok());
+    if (commands) {
+      ASSERT_TRUE(handed.claim("tablet", kBegin + 1s).ok());
+    } else {
+      handed.hear("tablet", kBegin + 1s);
+    }
+    EXPECT_FALSE(handed.take("base", kBegin + 2s).ok());
+    EXPECT_EQ(handed.holder(kBegin + 2s), "tablet");
+  }
+}
+
 TEST_F(CommandAuthorityTest, AStandbyKnowsIt) {
   ASSERT_TRUE(authority.claim("base", kBegin).ok());
   CommandAuthority standby{kLease};
