@@ -165,7 +165,7 @@ void add_goto(CLI::App& gcs, const Network& network) {
   CLI::App* verb = gcs.add_subcommand("goto", "Fly to a place in the map, around obstacles");
   verb->add_option("x", place->x, "In the map, to the east [m]")->required()->check(finite);
   verb->add_option("y", place->y, "In the map, to the north [m]")->required()->check(finite);
-  verb->add_option("z", place->z, "In the map, up [m]; else at the height that it has")
+  verb->add_option("z", place->z, "In the map, up [m], not above the ground; else as high as it is")
       ->check(finite);
   const auto options = std::make_shared<CommandOptions>();
   options->add_to(*verb);
@@ -179,7 +179,7 @@ void add_goto(CLI::App& gcs, const Network& network) {
 }
 
 void add_claw(CLI::App& gcs, const Network& network) {
-  CLI::App* claw = gcs.add_subcommand("claw", "Open or close what it carries with");
+  CLI::App* claw = gcs.add_subcommand("claw", "Open or close the gripper");
   claw->require_subcommand(1);
   add_simple(*claw, network, "open", "Let go", command::CLAW_OPEN, "claw ");
   add_simple(*claw, network, "close", "Take hold", command::CLAW_CLOSE, "claw ");
@@ -258,9 +258,10 @@ void add_gcs_commands(CLI::App& gcs) {
   add_mode_verb(gcs, network);
   group_verbs(gcs, "Fly");
 
-  add_simple(gcs, network, "manual", "Fly with the sticks: swiftlet gcs stick, or a remote control",
-             command::MANUAL);
-  add_simple(gcs, network, "assist", "The same, and stop at obstacles", command::ASSIST);
+  add_simple(gcs, network, "manual",
+             "Mode Manual: the sticks fly (swiftlet gcs stick, a remote control)", command::MANUAL);
+  add_simple(gcs, network, "assist",
+             "Mode Assisted Manual: the sticks fly, and obstacles stop them", command::ASSIST);
   add_stick(gcs, network);
   group_verbs(gcs, "Fly by hand");
 

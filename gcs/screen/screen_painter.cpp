@@ -154,11 +154,12 @@ void paint(Surface& surface, const GroundStationModel& model, Controller& contro
            MapPicture& picture, Time now) {
   surface.clear();
   const Pane screen(surface);
-  if (surface.width() < kLeastWidth || surface.height() < kLeastHeight) {
+  if (!is_large_enough(surface.width(), surface.height())) {
     screen.text(0, 0,
                 fmt::format("too small: {} x {}, needs {} x {}", surface.width(), surface.height(),
                             kLeastWidth, kLeastHeight),
                 kWarning);
+    screen.text(0, 1, "only the space bar works: it stops the vehicle", kWarning);
     return;
   }
   const Layout layout =

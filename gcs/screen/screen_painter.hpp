@@ -12,6 +12,9 @@ namespace swiftlet::screen {
 /// Smaller screens only say so.
 inline constexpr int kLeastWidth = 60;
 inline constexpr int kLeastHeight = 20;
+inline bool is_large_enough(int width, int height) {
+  return width >= kLeastWidth && height >= kLeastHeight;
+}
 
 /// Where things are on a screen of a size. An empty area is not shown.
 struct Layout {

@@ -71,10 +71,15 @@ bool StickClient::is_refused() const {
 }
 
 void StickClient::end_held() {
-  if (!is_refused()) return stop(0);
-  fmt::print(stderr, "stick: not heard: station '{}' has control, not '{}'\n", status_->station(),
-             station_);
-  stop(1);
+  using namespace swiftlet_msgs::msg::VehicleStatus_Constants;
+  const bool on_ground = status_ && status_->mode() == GROUNDED;
+  if (is_refused()) {
+    fmt::print(stderr, "stick: not heard: station '{}' has control, not '{}'\n", status_->station(),
+               station_);
+  } else if (on_ground) {
+    fmt::print(stderr, "stick: nothing was flown: the vehicle is on the ground; send takeoff\n");
+  }
+  stop(is_refused() || on_ground ? 1 : 0);
 }
 
 void StickClient::show(const Sticks& sticks) {

@@ -46,7 +46,8 @@ void add_answer_patience(CLI::App& verb, double& patience) {
 }
 
 void CommandOptions::add_to(CLI::App& verb) {
-  verb.add_flag("--wait", wait_, "Until it is done; exit code 1 where it comes to another end");
+  verb.add_flag("--wait", wait_,
+                "End when the vehicle has done it, with exit code 1 where it did not");
   verb.add_flag("--json", json_, "For scripts");
   add_answer_patience(verb, patience_);
 }
@@ -56,7 +57,10 @@ void CommandOptions::send(const GroundOptions& network, const GroundCommand& com
   CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_), id);
   const bool accepted = outcome.accepted;
   if (accepted && wait_) outcome = until_done(network, command, id);
-  if (outcome.text.empty()) outcome.text = command.name + ": interrupted";
+  if (outcome.text.empty()) {
+    outcome.text =
+        command.name + (accepted ? ": interrupted; the vehicle goes on with it" : ": interrupted");
+  }
   if (json_) {
     const nlohmann::json json = {{"command", command.name},
                                  {"accepted", accepted},

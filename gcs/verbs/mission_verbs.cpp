@@ -125,7 +125,8 @@ void add_mission_verbs(CLI::App& mission, const Network& network) {
   status->callback([network, json] { show_state(*network, *json); });
   add_order(mission, network, "start", "Fly it, or go on where it was paused",
             command::MISSION_START);
-  add_order(mission, network, "pause", "Hover, and keep the place in it", command::MISSION_PAUSE);
+  add_order(mission, network, "pause", "Hover, and keep the place in it; start goes on from there",
+            command::MISSION_PAUSE);
   add_order(mission, network, "clear", "Forget it", command::MISSION_CLEAR);
 }
 

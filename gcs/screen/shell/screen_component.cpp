@@ -78,6 +78,8 @@ void ScreenComponent::advance(Time now) {
   bool pressed = false;
   for (const KeyCode key : terminal_.keys()) {
     pressed = true;
+    // Nobody steers by what is not seen.
+    if (!is_large_enough(terminal_.width(), terminal_.height()) && key != key_code(' ')) continue;
     for (const Action& action : controller_.press(key, circumstances_of(model_, now))) {
       carry_out(action, now);
     }

@@ -154,7 +154,8 @@ void GroundStationModel::take(const MissionReport& report, Time now) {
 void GroundStationModel::note_changes(const MissionReport& before, const MissionReport& after,
                                       Time now) {
   using State = MissionReport::State;
-  if (!after.refusal.empty() &&
+  // What was refused before anybody looked is no news.
+  if (mission_.known() && !after.refusal.empty() &&
       (after.refusal != before.refusal || after.upload != before.upload)) {
     log_.add(now, Severity::kDanger, after.refusal);
   }
