@@ -246,6 +246,7 @@ void FlightDirector::enter(Mode mode, Time now) {
   flying_.navigation = Navigation::kInactive;
   flying_.goal.reset();
   answers_.clear();
+  still_at_.reset();
   switch (mode) {
     case Mode::kTakeoff: {
       flying_.takeoff_point = state_.p_WB;
@@ -338,6 +339,7 @@ void FlightDirector::restore(const State& state) {
   order_.reset();
   order_heard_.reset();
   idle_since_.reset();
+  still_at_.reset();
 }
 
 }  // namespace swiftlet

@@ -259,6 +259,7 @@ class FlightDirector {
   std::string goal_name() const;
   void take_answer(const PlanAnswer& answer, Time now);
   std::string plan_problem(const Trajectory& plan, Time now) const;
+  double standstill(Time now);
   bool arrived(const Eigen::Vector3d& place) const;
   void next_waypoint();
   void fail_navigation(const std::string& problem);
@@ -287,10 +288,12 @@ class FlightDirector {
   std::string guidance_problem_;
 
   State flying_;
-  std::deque<PlanAnswer> answers_;         // to its goal, since the last tick
-  std::optional<ExplorationOrder> order_;  // since exploration began, or was taken over
-  std::optional<Time> order_heard_;        // that, or the beginning
-  std::optional<Time> idle_since_;         // in exploration, with nothing to fly
+  std::deque<PlanAnswer> answers_;           // to its goal, since the last tick
+  std::optional<ExplorationOrder> order_;    // since exploration began, or was taken over
+  std::optional<Time> order_heard_;          // that, or the beginning
+  std::optional<Time> idle_since_;           // in exploration, with nothing to fly
+  std::optional<Eigen::Vector3d> still_at_;  // in a mission, since `still_since_`
+  Time still_since_{};
 };
 
 }  // namespace swiftlet

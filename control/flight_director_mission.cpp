@@ -27,6 +27,9 @@ constexpr double kLargestCoefficient = 1e6;  // [m], [rad]
 constexpr double kVelocityGap = 0.3;
 /// A plan from the vehicle's own state is so old when it comes [s].
 constexpr double kPlanDelay = 0.2;
+/// Who flies a plan gets on by so much in so long.
+constexpr double kProgressDistance = 0.3;  // [m]
+constexpr double kProgressTime = 10.0;     // [s]
 
 bool moderate(const Trajectory& plan) {
   for (const TrajectorySegment& segment : plan.segments()) {
@@ -61,7 +64,9 @@ std::string FlightDirector::place_problem(const MissionWaypoint& waypoint, doubl
                       std::isfinite(waypoint.yaw.value_or(0.0)) &&
                       waypoint.speed.value_or(kLeastSpeed) >= kLeastSpeed;
   if (!usable) return "not a place that can be flown to";
-  const double height = position.z() - flying_.takeoff_point.z();
+  // Before the next flight it is here that it will take off.
+  const bool rests = machine_.mode() == Mode::kGrounded && estimate_time_;
+  const double height = position.z() - (rests ? state_.p_WB : flying_.takeoff_point).z();
   if (height < params_.ground_height) {
     return fmt::format("{:.2f} m above the take-off point; {:.2f} m are the least", height,
                        params_.ground_height);
@@ -110,6 +115,7 @@ void FlightDirector::set_goal(const MissionWaypoint& waypoint, Time now) {
   flying_.goal = PlanGoal{now, waypoint};
   if (!flying_.goal->waypoint.yaw) flying_.goal->waypoint.yaw = reference(now).yaw;
   answers_.clear();
+  still_at_.reset();
   flying_.waiting_since = flying_.active ? std::max(now, flying_.active->end()) : now;
   flying_.refusal.clear();
 }
@@ -208,6 +214,10 @@ void FlightDirector::follow_mission(Time now) {
   if (!flying_.goal && now >= flying_.simple.end()) {
     set_goal(flying_.waypoints[flying_.waypoint], now);
   }
+  if (const double left = standstill(now); left > kProgressTime) {
+    return fail_navigation(fmt::format(
+        "no way was made to {} for {:.0f} s; what holds the vehicle up?", goal_name(), left));
+  }
   if (!follow_plans(now)) return;
   const Eigen::Vector3d& goal = flying_.waypoints[flying_.waypoint].position;
   if (arrived(goal)) {
@@ -219,6 +229,17 @@ void FlightDirector::follow_mission(Time now) {
     fail_navigation(
         fmt::format("{} was missed by {:.2f} m", goal_name(), (goal - state_.p_WB).norm()));
   }
+}
+
+/// For how long the vehicle has not moved though a plan is flown [s]: something holds it up that
+/// the planner does not see, a ceiling say.
+double FlightDirector::standstill(Time now) {
+  const bool moved = !still_at_ || (*still_at_ - state_.p_WB).norm() > kProgressDistance;
+  if (moved || !flying_.active) {
+    still_at_ = state_.p_WB;
+    still_since_ = now;
+  }
+  return to_seconds(now - still_since_);
 }
 
 bool FlightDirector::arrived(const Eigen::Vector3d& place) const {

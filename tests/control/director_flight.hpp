@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,7 @@ struct DirectorFlight {
   double floor_z = 0.0;        // [m]
   double sinking_speed = 0.5;  // while level [m/s]
   bool can_climb = true;
+  double ceiling_z = std::numeric_limits<double>::infinity();  // [m]
   // Who is alive.
   bool estimator = true, sonar = true, flight_controller = true;
   bool expect_steps = false;  // the reference may have them
@@ -137,6 +139,10 @@ struct DirectorFlight {
     if (setpoint.kind == SetpointKind::kTrack && can_climb) {
       vehicle.p_WB = setpoint.reference.position;
       vehicle.v_WB_W = setpoint.reference.velocity;
+      if (vehicle.p_WB.z() > ceiling_z) {
+        vehicle.p_WB.z() = ceiling_z;
+        vehicle.v_WB_W.z() = 0.0;
+      }
       vehicle.q_WB = from_yaw(setpoint.reference.yaw);
     } else if (setpoint.kind == SetpointKind::kLevel) {
       vehicle.v_WB_W.z() = -sinking_speed;

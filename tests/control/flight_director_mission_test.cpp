@@ -83,6 +83,30 @@ TEST(FlightDirectorMission, HeightsThatCannotBeFlownAreRefused) {
   EXPECT_TRUE(flight.director.fly_straight(8, {{{2.0, 0.0, 90.0}, {}}}, flight.now).ok());
 }
 
+TEST(FlightDirectorMission, WhoIsHeldUpByWhatNobodySeesDoesNotTryForEver) {
+  Hovering flight;
+  flight.ceiling_z = 2.4;
+  flight.expect_steps = true;  // plans begin where the vehicle is, not where it should be
+  flight.planner = [&flight, planned = Time{}](const PlanGoal& goal) mutable {
+    if (flight.now - planned < std::chrono::milliseconds(200)) return;
+    planned = flight.now;
+    FlatReference from;
+    from.position = flight.vehicle.p_WB;
+    from.velocity = flight.vehicle.v_WB_W;
+    const auto way = minimum_snap(flight.now, from, {{goal.waypoint.position, 0.0}}, {8.0});
+    flight.director.set_plan({goal.identity, *way, false, "", ""});
+  };
+  flight.begin(9, {{{0.0, 0.0, 9.0}, {}}});
+  ASSERT_TRUE(flight.tick_until([&flight] { return flight.vehicle.p_WB.z() > 2.3; }));
+  const Time there = flight.now;
+  ASSERT_TRUE(flight.fly_until(Mode::kHover, 30.0));
+  EXPECT_THAT(flight.transitions,
+              ElementsAre(HasSubstr("no way was made to waypoint 1 for 10 s; what holds")));
+  EXPECT_GT(to_seconds(flight.now - there), 5.0);
+  EXPECT_LT(to_seconds(flight.now - there), 10.1);
+  EXPECT_FALSE(flight.status().mission_done);
+}
+
 TEST(FlightDirectorMission, ReplansInFlightLeaveNoStep) {
   Hovering flight;
   int plans = 0;
