@@ -37,6 +37,12 @@ MissionItem random_item(std::mt19937& random) {
   return item;
 }
 
+MissionItem in_the_air() {
+  MissionItem item;
+  item.place.position.z() = 1.2;
+  return item;
+}
+
 Items random_items(std::mt19937& random, std::size_t count) {
   Items items;
   for (std::size_t i = 0; i < count; ++i) items.push_back(to_msg(random_item(random)));
@@ -168,22 +174,22 @@ TEST_F(Desk, OtherCommandsAreNotItsOwn) {
 }
 
 TEST_F(Desk, ClearingForgetsTheMission) {
-  upload("a", {MissionItem()});
+  upload("a", {in_the_air()});
   EXPECT_EQ(desk.state(kNow).count(), 1U);
   ASSERT_TRUE((*order(code::MISSION_CLEAR)).ok());
   EXPECT_EQ(desk.state(kNow).count(), 0U);
   EXPECT_EQ(desk.state(kNow).id(), "");
   // What was repeated and is late does not bring it back; another upload does.
-  upload("a", {MissionItem()});
+  upload("a", {in_the_air()});
   EXPECT_EQ(desk.state(kNow).count(), 0U);
-  upload("b", {MissionItem()});
+  upload("b", {in_the_air()});
   EXPECT_EQ(desk.state(kNow).count(), 1U);
 }
 
 TEST_F(Desk, WhoMayNotUploadIsToldWithoutDisturbingWhoMay) {
   std::mt19937 random(6);
   Items items;
-  for (int i = 0; i < 20; ++i) items.push_back(to_msg(MissionItem()));
+  for (int i = 0; i < 20; ++i) items.push_back(to_msg(in_the_air()));
   const auto mine = all_parts("mine", items), others = all_parts("theirs", random_items(random, 3));
   desk.hear(mine[0], director, kNow);
   desk.refuse(others[0], "not you", kNow + 1s);
@@ -203,7 +209,7 @@ TEST_F(Desk, PartsOfAnEarlierUploadThatAreLateDisturbNothing) {
   std::mt19937 random(5);
   const auto earlier = all_parts("a", random_items(random, 20));
   Items items;
-  for (int i = 0; i < 20; ++i) items.push_back(to_msg(MissionItem()));
+  for (int i = 0; i < 20; ++i) items.push_back(to_msg(in_the_air()));
   const auto later = all_parts("b", items);
   desk.hear(earlier[0], director, kNow);
   desk.hear(later[0], director, kNow);
