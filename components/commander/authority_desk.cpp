@@ -33,6 +33,13 @@ Status AuthorityDesk::admit(const std::string& station, Time now) {
   return authority_.claim(name_of(station), now);
 }
 
+Status AuthorityDesk::admit(const swiftlet_msgs::msg::ModeCommand& command, Time now) {
+  using swiftlet_msgs::msg::ModeCommand_Constants::CONTROL_TAKE;
+  const std::string station = name_of(command.station());
+  return command.command() == CONTROL_TAKE ? authority_.take(station, now)
+                                           : authority_.claim(station, now);
+}
+
 bool AuthorityDesk::admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
   if (sticks.station().empty()) return true;
   // Who touches nothing takes nothing.

@@ -22,6 +22,7 @@ class AuthorityDesk {
 
   /// Whether a command of this station is to be carried out.
   Status admit(const std::string& station, Time now);
+  Status admit(const swiftlet_msgs::msg::ModeCommand& command, Time now);
   /// Whether these sticks steer. The vehicle's own remote control, which has no name, always does;
   /// those of a station take control when they are moved.
   bool admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now);

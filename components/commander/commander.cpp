@@ -125,10 +125,11 @@ class Commander : public Component {
         },
         Need::kOptional);
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
-      answer(asked(command), [&] { return carry_out(command, command.station()); });
+      answer(asked(command), [&] { return carry_out(command, authority_.admit(command, now())); });
     });
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
-      answer(asked(mission), [&] { return carry_out(mission, mission.station()); });
+      answer(asked(mission),
+             [&] { return carry_out(mission, authority_.admit(mission.station(), now())); });
     });
     subscribe(topic::mission_upload, [this](const swiftlet_msgs::msg::MissionPart& part) {
       if (active()) hear(part);
@@ -229,8 +230,7 @@ class Commander : public Component {
 
   /// What a station commands, where it has control or can have it.
   template <class Command>
-  Result<Acceptance> carry_out(const Command& command, const std::string& station) {
-    const Status admitted = authority_.admit(station, now());
+  Result<Acceptance> carry_out(const Command& command, const Status& admitted) {
     if (!admitted.ok()) {
       return Error{asked(command).name() + " refused: " + admitted.error().reason};
     }

@@ -61,6 +61,10 @@ TEST_F(StationControl, ASecondStationIsRefusedUntilControlIsHandedOver) {
   accepted("base", {"hover"});  // the option wins
   environment_.erase("SWIFTLET_STATION");
 
+  accepted("base", {"control", "give", "tabelt"});
+  refused("base", {"land"}, "tabelt");
+  accepted("base", {"control", "take"});  // nobody has that name
+
   accepted("base", {"control", "give", "tablet"});
   EXPECT_EQ(status()["control"], "tablet");
   refused("base", {"land"}, "tablet");
