@@ -31,7 +31,7 @@ void CommandAuthority::hear(const std::string& station, Time now) {
 }
 
 Status CommandAuthority::give(const std::string& station, const std::string& successor, Time now) {
-  if (successor.empty()) return Error{"control give refused: give it to whom?"};
+  if (successor.empty()) return Error{"give it to whom?"};
   if (Status claimed = claim(station, now); !claimed.ok()) return claimed;
   state_.holder = successor;
   if (successor != station) giver_ = station;

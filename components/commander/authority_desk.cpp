@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/commander/authority_desk.hpp"
 
+#include "components/commander/request_message.hpp"
 #include "components/conversions.hpp"
 #include "components/manual_control_message.hpp"
 
@@ -16,11 +17,6 @@ bool is_centred(const swiftlet_msgs::msg::ManualControl& sticks) {
   return from_msg(sticks).deflection() == 0.0;
 }
 
-Result<Acceptance> accepted_if(const Status& status) {
-  if (!status.ok()) return status.error();
-  return Acceptance::kChanged;
-}
-
 }  // namespace
 
 Duration AuthorityDesk::read_lease(const Config& config) {
@@ -31,13 +27,6 @@ Duration AuthorityDesk::read_lease(const Config& config) {
 
 Status AuthorityDesk::admit(const std::string& station, Time now) {
   return authority_.claim(name_of(station), now);
-}
-
-Status AuthorityDesk::admit(const swiftlet_msgs::msg::ModeCommand& command, Time now) {
-  using swiftlet_msgs::msg::ModeCommand_Constants::CONTROL_TAKE;
-  const std::string station = name_of(command.station());
-  return command.command() == CONTROL_TAKE ? authority_.take(station, now)
-                                           : authority_.claim(station, now);
 }
 
 bool AuthorityDesk::admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
@@ -51,16 +40,22 @@ std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
     const swiftlet_msgs::msg::ModeCommand& command, Time now) {
   using namespace swiftlet_msgs::msg::ModeCommand_Constants;
   const std::string station = name_of(command.station());
+  Status status;
   switch (command.command()) {
     case CONTROL_TAKE:
-      return accepted_if(authority_.take(station, now));
+      status = authority_.take(station, now);
+      break;
     case CONTROL_GIVE:
-      return accepted_if(authority_.give(station, command.successor(), now));
+      status = authority_.give(station, command.successor(), now);
+      break;
     case CONTROL_RELEASE:
-      return accepted_if(authority_.release(station, now));
+      status = authority_.release(station, now);
+      break;
     default:
       return std::nullopt;
   }
+  if (!status.ok()) return refused(asked(command), status.error());
+  return Acceptance::kChanged;
 }
 
 void AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) {

@@ -22,11 +22,11 @@ class AuthorityDesk {
 
   /// Whether a command of this station is to be carried out.
   Status admit(const std::string& station, Time now);
-  Status admit(const swiftlet_msgs::msg::ModeCommand& command, Time now);
   /// Whether these sticks steer. The vehicle's own remote control, which has no name, always does;
   /// those of a station take control when they are moved.
   bool admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now);
-  /// Carries out what is about control itself; nothing where it is another command.
+  /// Carries out what is about control itself, for which a station need not have been admitted;
+  /// nothing where it is another command.
   std::optional<Result<Acceptance>> carry_out(const swiftlet_msgs::msg::ModeCommand& command,
                                               Time now);
   void hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now);

@@ -125,7 +125,10 @@ class Commander : public Component {
         },
         Need::kOptional);
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
-      answer(asked(command), [&] { return carry_out(command, authority_.admit(command, now())); });
+      answer(asked(command), [&]() -> Result<Acceptance> {
+        if (const auto result = authority_.carry_out(command, now())) return *result;
+        return carry_out(command, authority_.admit(command.station(), now()));
+      });
     });
     subscribe(topic::waypoints, [this](const swiftlet_msgs::msg::Mission& mission) {
       answer(asked(mission),
@@ -231,9 +234,7 @@ class Commander : public Component {
   /// What a station commands, where it has control or can have it.
   template <class Command>
   Result<Acceptance> carry_out(const Command& command, const Status& admitted) {
-    if (!admitted.ok()) {
-      return Error{asked(command).name() + " refused: " + admitted.error().reason};
-    }
+    if (!admitted.ok()) return refused(asked(command), admitted.error());
     return carry_out(command);
   }
 
@@ -248,7 +249,6 @@ class Commander : public Component {
   }
 
   Result<Acceptance> carry_out(const swiftlet_msgs::msg::ModeCommand& command) {
-    if (const auto result = authority_.carry_out(command, now())) return *result;
     using swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;
     if (auto result = desk_.carry_out(command, director_, origin_.origin(), now())) {
       if (result->ok() && command.command() == MISSION_START) mission_id_ = desk_.id();

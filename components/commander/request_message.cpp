@@ -102,6 +102,10 @@ swiftlet_msgs::msg::CommandAck asked(const geometry_msgs::msg::PoseStamped& goal
   return named(goal_id(goal), "goal_pose", "");
 }
 
+Error refused(const swiftlet_msgs::msg::CommandAck& asked, const Error& why) {
+  return Error{asked.name() + " refused: " + why.reason};
+}
+
 bool has_stamp(const geometry_msgs::msg::PoseStamped& goal) {
   return from_msg(goal.header().stamp()) != Time{};
 }

@@ -35,4 +35,7 @@ swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::ModeCommand& comm
 swiftlet_msgs::msg::CommandAck asked(const swiftlet_msgs::msg::Mission& mission);
 swiftlet_msgs::msg::CommandAck asked(const geometry_msgs::msg::PoseStamped& goal);
 
+/// Why what was asked for is not done, with its name.
+Error refused(const swiftlet_msgs::msg::CommandAck& asked, const Error& why);
+
 }  // namespace swiftlet

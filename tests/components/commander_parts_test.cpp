@@ -66,6 +66,37 @@ TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
   EXPECT_TRUE(desk.is_of_holder(tablet, Time(131s))) << "base has been away for too long";
 }
 
+TEST(AuthorityDesk, WhatIsAboutControlIsCarriedOutByItAlone) {
+  using namespace swiftlet_msgs::msg::ModeCommand_Constants;
+  AuthorityDesk desk(30s);
+  const auto ask = [&](std::uint8_t what, const std::string& station,
+                       const std::string& successor = "") {
+    swiftlet_msgs::msg::ModeCommand command;
+    command.command(what);
+    command.station(station);
+    command.successor(successor);
+    return desk.carry_out(command, Time(100s));
+  };
+  EXPECT_FALSE(ask(LAND, "base")) << "is none of its business";
+  EXPECT_EQ(desk.holder(Time(100s)), "");
+
+  ASSERT_TRUE(ask(CONTROL_GIVE, "base", "tabelt")->ok());
+  EXPECT_EQ(desk.holder(Time(100s)), "tabelt");
+  EXPECT_FALSE(desk.admit("base", Time(100s)).ok()) << "it has given control away";
+  EXPECT_TRUE(ask(CONTROL_TAKE, "base")->ok()) << "nobody has that name";
+  EXPECT_EQ(desk.holder(Time(100s)), "base");
+
+  for (const auto what : {CONTROL_TAKE, CONTROL_RELEASE, CONTROL_GIVE}) {
+    const auto answer = ask(what, "tablet", "tablet");
+    ASSERT_FALSE(answer->ok());
+    EXPECT_THAT(answer->error().reason,
+                testing::MatchesRegex("control (take|release|give) refused: station 'base' has.*"));
+  }
+  EXPECT_EQ(ask(CONTROL_GIVE, "base")->error().reason, "control give refused: give it to whom?");
+  EXPECT_TRUE(ask(CONTROL_RELEASE, "base")->ok());
+  EXPECT_EQ(desk.holder(Time(100s)), "");
+}
+
 TEST(Attendance, WhoWasNeverThereIsNotMissed) {
   const Attendance attendance;
   EXPECT_EQ(attendance.problem(Time(100s)), "");
