@@ -141,6 +141,40 @@ TEST(LidarSlam, WhoStopsWhereThereIsSomethingToSeeIsNotThoughtToGoOn) {
   EXPECT_LT(drive.errors(drive.live).back(), 0.05);
 }
 
+/// A corridor of 16 m with a recess in its northern wall every 2.5 m.
+FloorPlan corridor_with_recesses() {
+  constexpr double kLength = 16.0, kWidth = 2.4, kEvery = 2.5, kSize = 0.4;
+  FloorPlan plan;
+  plan.add_wall({0, 0}, {kLength, 0});
+  plan.add_wall({0, 0}, {0, kWidth});
+  plan.add_wall({kLength, 0}, {kLength, kWidth});
+  double x = 0.0;
+  for (double recess = kEvery; recess + kSize < kLength; recess += kEvery) {
+    plan.add_wall({x, kWidth}, {recess, kWidth});
+    x = recess + kSize;
+    plan.add_wall({recess, kWidth}, {recess, kWidth + kSize});
+    plan.add_wall({recess, kWidth + kSize}, {x, kWidth + kSize});
+    plan.add_wall({x, kWidth + kSize}, {x, kWidth});
+  }
+  plan.add_wall({x, kWidth}, {kLength, kWidth});
+  return plan;
+}
+
+TEST(LidarSlam, StampsThatAreLateDoNotMakeItGoWhereTheScanDoesNotFit) {
+  for (unsigned seed = 11; seed < 17; ++seed) {
+    Drive drive(seed, corridor_with_recesses());
+    drive.field_of_view = M_PI;
+    std::mt19937 random(seed + 100);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    constexpr double kFast = 0.8;  // [m/s]
+    for (double x = 1.5; x < 14.0; x += kFast / kRate_hz) {
+      const double late = uniform(random) < 0.3 ? 0.5 * uniform(random) : 0.0;
+      drive.see({{x, 1.2}, 0.0}, static_cast<double>(drive.truth.size()) / kRate_hz + late);
+    }
+    EXPECT_LT(largest(drive.errors(drive.live)), 0.2) << seed;
+  }
+}
+
 TEST(LidarSlam, ACorridorIsUncertainAlongItsAxis) {
   FloorPlan corridor;
   corridor.add_wall({-200, -1.2}, {200, -1.2});
