@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <deque>
 
+#include "components/commander/answered_commands.hpp"
 #include "components/commander/attendance.hpp"
 #include "components/commander/authority_desk.hpp"
 #include "components/commander/director_params.hpp"
@@ -38,8 +38,6 @@ constexpr int kClawEvery = 20;     // ticks
 constexpr int kLimitsEvery = 100;  // ticks
 /// What a person steers is told to a standby that often [ticks].
 constexpr int kSteeredEvery = 10;
-/// Commands that were answered, kept so that one that comes again is not carried out again.
-constexpr std::size_t kRememberedCommands = 64;
 /// Missions are flown by what these do.
 constexpr std::array kGuides{"flight_controller", "planner", "lidar_mapper"};
 
@@ -74,6 +72,27 @@ class Commander : public Component {
     mission_ = advertise(topic::commander_mission);
     claw_ = advertise(topic::claw_command);
     limits_ = advertise(topic::vehicle_limits);
+    subscribe_to_vehicle();
+    subscribe_to_stations();
+    subscribe_to_components();
+    every(kTick, [this](Time now) {
+      if (active()) tick(now);
+    });
+    set_changeable_parameters(
+        {{"fence_radius", "fence_height", "low_battery", "critical_battery", "link_timeout",
+          "on_fence", "on_low_battery", "on_critical_battery", "on_link_loss", "obstacle_distance",
+          "stick_speed", "stick_climb_speed", "stick_turn_rate", "gps_altitude", "gps_speed",
+          "landing_speed", "plan_timeout", "exploration_timeout"},
+         {"min_altitude", "max_altitude", "takeoff_speed", "braking_acceleration",
+          "arrival_distance", "estimate_sigma_max", "heading_sigma_to_arm", "settling_to_arm",
+          "min_battery_percentage", "stick_dead_band", "takeover", "vehicle_radius", "endurance",
+          "control_lease"},
+         [this] { return director_.state().machine.mode != Mode::kGrounded; },
+         [this](const Config& changed) { apply(changed); }});
+  }
+
+ private:
+  void subscribe_to_vehicle() {
     subscribe(topic::odometry, [this](const nav_msgs::msg::Odometry& odometry) {
       const auto& covariance = odometry.pose().covariance();
       const double variance = std::max({covariance[0], covariance[7], covariance[14]});
@@ -94,12 +113,6 @@ class Commander : public Component {
           look_around();
         },
         Need::kOptional);
-    subscribe(
-        topic::manual_control,
-        [this](const swiftlet_msgs::msg::ManualControl& sticks) {
-          if (authority_.admit_sticks(sticks, now())) director_.set_sticks(from_msg(sticks), now());
-        },
-        Need::kOptional);
     subscribe(topic::range_down, [this](const sensor_msgs::msg::Range& range) {
       director_.set_range_down(range.range());
     });
@@ -112,16 +125,20 @@ class Commander : public Component {
     subscribe(topic::motors, [this](const swiftlet_msgs::msg::MotorCommand&) {
       director_.set_motors_heard(now());
     });
-    subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& trajectory) {
-      const bool brake = trajectory.status() == swiftlet_msgs::msg::Trajectory_Constants::BRAKE;
-      last_plan_ = {from_msg(trajectory.goal_stamp()), from_msg(trajectory), brake,
-                    trajectory.failure(), trajectory.reason()};
-      if (active()) director_.set_plan(last_plan_);
-    });
     subscribe(
-        topic::exploration,
-        [this](const swiftlet_msgs::msg::Exploration& exploration) {
-          director_.set_exploration(order_of(exploration), now());
+        topic::claw_state,
+        [this](const swiftlet_msgs::msg::ClawState& claw) { desk_.hear(claw, now()); },
+        Need::kOptional);
+    subscribe(
+        topic::gps_fix, [this](const sensor_msgs::msg::NavSatFix& fix) { hear(fix); },
+        Need::kOptional);
+  }
+
+  void subscribe_to_stations() {
+    subscribe(
+        topic::manual_control,
+        [this](const swiftlet_msgs::msg::ManualControl& sticks) {
+          if (authority_.admit_sticks(sticks, now())) director_.set_sticks(from_msg(sticks), now());
         },
         Need::kOptional);
     subscribe(topic::mode, [this](const swiftlet_msgs::msg::ModeCommand& command) {
@@ -141,19 +158,43 @@ class Commander : public Component {
       if (!active()) return;
       for (const auto& part : desk_.answer(fetch, now())) mission_download_.publish(part);
     });
-    subscribe(topic::commander_mission, [this](const swiftlet_msgs::msg::MissionPart& mission) {
-      if (!active()) desk_.restore(mission);
-    });
-    subscribe(
-        topic::claw_state,
-        [this](const swiftlet_msgs::msg::ClawState& claw) { desk_.hear(claw, now()); },
-        Need::kOptional);
     subscribe(topic::goal_pose, [this](const geometry_msgs::msg::PoseStamped& goal) {
       if (has_stamp(goal)) {
         answer(asked(goal), [&] { return carry_out(goal); });
       } else if (active()) {
         tell(acknowledgement(asked(goal), carry_out(goal)));
       }
+    });
+    subscribe(
+        topic::gcs_heartbeat,
+        [this](const swiftlet_msgs::msg::ComponentStatus& station) {
+          authority_.hear(station, now());
+          if (!(station.period() > 0.0)) return;  // it promises nothing, and is not missed
+          if (!authority_.is_of_holder(station, now())) return;  // who only looks is no link
+          if (station.active()) {
+            director_.set_link_heard(now());
+          } else {
+            director_.set_link_left();
+          }
+        },
+        Need::kOptional);
+  }
+
+  void subscribe_to_components() {
+    subscribe(topic::trajectory, [this](const swiftlet_msgs::msg::Trajectory& trajectory) {
+      const bool brake = trajectory.status() == swiftlet_msgs::msg::Trajectory_Constants::BRAKE;
+      last_plan_ = {from_msg(trajectory.goal_stamp()), from_msg(trajectory), brake,
+                    trajectory.failure(), trajectory.reason()};
+      if (active()) director_.set_plan(last_plan_);
+    });
+    subscribe(
+        topic::exploration,
+        [this](const swiftlet_msgs::msg::Exploration& exploration) {
+          director_.set_exploration(order_of(exploration), now());
+        },
+        Need::kOptional);
+    subscribe(topic::commander_mission, [this](const swiftlet_msgs::msg::MissionPart& mission) {
+      if (!active()) desk_.restore(mission);
     });
     subscribe(topic::commander_state, [this](const swiftlet_msgs::msg::CommanderState& state) {
       if (!active()) restore(state);
@@ -174,39 +215,8 @@ class Commander : public Component {
           director_.set_guard(guard.acting(), guard.reason(), now());
         },
         Need::kOptional);
-    subscribe(
-        topic::gcs_heartbeat,
-        [this](const swiftlet_msgs::msg::ComponentStatus& station) {
-          authority_.hear(station, now());
-          if (!(station.period() > 0.0)) return;  // it promises nothing, and is not missed
-          if (!authority_.is_of_holder(station, now())) return;  // who only looks is no link
-          if (station.active()) {
-            director_.set_link_heard(now());
-          } else {
-            director_.set_link_left();
-          }
-        },
-        Need::kOptional);
-    subscribe(
-        topic::gps_fix, [this](const sensor_msgs::msg::NavSatFix& fix) { hear(fix); },
-        Need::kOptional);
-    every(kTick, [this](Time now) {
-      if (active()) tick(now);
-    });
-    set_changeable_parameters(
-        {{"fence_radius", "fence_height", "low_battery", "critical_battery", "link_timeout",
-          "on_fence", "on_low_battery", "on_critical_battery", "on_link_loss", "obstacle_distance",
-          "stick_speed", "stick_climb_speed", "stick_turn_rate", "gps_altitude", "gps_speed",
-          "landing_speed", "plan_timeout", "exploration_timeout"},
-         {"min_altitude", "max_altitude", "takeoff_speed", "braking_acceleration",
-          "arrival_distance", "estimate_sigma_max", "heading_sigma_to_arm", "settling_to_arm",
-          "min_battery_percentage", "stick_dead_band", "takeover", "vehicle_radius", "endurance",
-          "control_lease"},
-         [this] { return director_.state().machine.mode != Mode::kGrounded; },
-         [this](const Config& changed) { apply(changed); }});
   }
 
- private:
   void apply(const Config& changed) {
     const FlightDirector::Params params = read_director_params(changed);
     auto limits = make_limits(changed, params, runner_params(params));
@@ -307,15 +317,11 @@ class Commander : public Component {
   template <class CarryOut>
   void answer(const swiftlet_msgs::msg::CommandAck& asked, CarryOut carry_out) {
     if (!active()) return;
-    for (const auto& known : answered_) {
-      if (known.id() == asked.id()) {
-        ack_.publish(known);
-        return;
-      }
+    if (const auto* known = answered_.find(asked.id())) {
+      ack_.publish(*known);
+      return;
     }
-    answered_.push_back(acknowledgement(asked, carry_out()));
-    if (answered_.size() > kRememberedCommands) answered_.pop_front();
-    tell(answered_.back());
+    tell(answered_.add(acknowledgement(asked, carry_out())));
   }
 
   swiftlet_msgs::msg::CommandAck acknowledgement(swiftlet_msgs::msg::CommandAck ack,
@@ -411,7 +417,7 @@ class Commander : public Component {
     message.mission().id(mission_id_);
     desk_.write(message);
     authority_.write(message);
-    message.answered().assign(answered_.begin(), answered_.end());
+    answered_.write(message);
     state_.publish(message);
   }
 
@@ -420,7 +426,7 @@ class Commander : public Component {
     desk_.restore(message);
     authority_.restore(message);
     mission_id_ = message.mission().id();
-    answered_.assign(message.answered().begin(), message.answered().end());
+    answered_.restore(message);
     restored_ = true;
   }
 
@@ -434,19 +440,9 @@ class Commander : public Component {
   }
 
   void publish_status(Time now) {
-    const FlightDirector::Status status = director_.status(now);
-    swiftlet_msgs::msg::VehicleStatus message;
+    swiftlet_msgs::msg::VehicleStatus message = to_msg(director_.status(now));
     message.header(make_header(now, frame::kMap));
-    message.mode(to_msg(status.mode));
-    message.armed(status.armed);
-    message.ready(status.ready);
-    message.reason(status.reason);
-    message.height(status.height);
     message.mission_id(mission_id_);
-    message.waypoint(static_cast<std::uint32_t>(status.waypoint));
-    message.waypoint_count(static_cast<std::uint32_t>(status.waypoint_count));
-    message.mission_done(status.mission_done);
-    message.takeoff_point(to_point(status.home));
     message.station(authority_.holder(now));
     status_.publish(message);
   }
@@ -466,7 +462,7 @@ class Commander : public Component {
   std::optional<Eigen::Vector3d> position_;  // in the map
   Attendance attendance_;
   std::string mission_id_;
-  std::deque<swiftlet_msgs::msg::CommandAck> answered_;
+  AnsweredCommands answered_;
   std::int64_t ticks_ = 0;
   Time last_goal_{};
   Publisher<swiftlet_msgs::msg::Setpoint> setpoint_;

@@ -114,4 +114,18 @@ FlightDirector::State from_msg(const swiftlet_msgs::msg::CommanderState& message
   return state;
 }
 
+swiftlet_msgs::msg::VehicleStatus to_msg(const FlightDirector::Status& status) {
+  swiftlet_msgs::msg::VehicleStatus message;
+  message.mode(to_msg(status.mode));
+  message.armed(status.armed);
+  message.ready(status.ready);
+  message.reason(status.reason);
+  message.height(status.height);
+  message.waypoint(static_cast<std::uint32_t>(status.waypoint));
+  message.waypoint_count(static_cast<std::uint32_t>(status.waypoint_count));
+  message.mission_done(status.mission_done);
+  message.takeoff_point(to_point(status.home));
+  return message;
+}
+
 }  // namespace swiftlet

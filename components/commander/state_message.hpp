@@ -15,4 +15,7 @@ FlightDirector::State from_msg(const swiftlet_msgs::msg::CommanderState& message
 /// Whether the standby must be told: something was decided in between.
 bool differs(const FlightDirector::State& a, const FlightDirector::State& b);
 
+/// What ground stations are told; header, mission id and station are the commander's.
+swiftlet_msgs::msg::VehicleStatus to_msg(const FlightDirector::Status& status);
+
 }  // namespace swiftlet

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "components/commander/answered_commands.hpp"
 #include "components/commander/attendance.hpp"
 #include "components/commander/authority_desk.hpp"
 #include "components/commander/director_params.hpp"
@@ -31,6 +32,30 @@ ComponentStatus status(const std::string& component, const std::string& instance
   if (!problem.empty()) status.problems({problem});
   status.blocked(blocked);
   return status;
+}
+
+TEST(AnsweredCommands, TheLastOnesAreKnownToAStandbyToo) {
+  const auto answer = [](std::size_t id) {
+    swiftlet_msgs::msg::CommandAck message;
+    message.id(std::to_string(id));
+    message.accepted(id % 2 == 0);
+    return message;
+  };
+  AnsweredCommands answered, standby;
+  EXPECT_EQ(answered.find("0"), nullptr);
+  for (std::size_t id = 0; id <= AnsweredCommands::kMost; ++id) {
+    EXPECT_EQ(answered.add(answer(id)).id(), std::to_string(id));
+  }
+  swiftlet_msgs::msg::CommanderState state;
+  answered.write(state);
+  standby.restore(state);
+  for (const AnsweredCommands& known : {answered, standby}) {
+    EXPECT_EQ(known.find("0"), nullptr) << "is the oldest of one too many";
+    ASSERT_NE(known.find("1"), nullptr);
+    EXPECT_FALSE(known.find("1")->accepted());
+    ASSERT_NE(known.find("64"), nullptr);
+    EXPECT_TRUE(known.find("64")->accepted());
+  }
 }
 
 TEST(AuthorityDesk, SticksThatNobodyTouchesTakeNoControl) {
