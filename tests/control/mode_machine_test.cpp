@@ -460,14 +460,14 @@ TEST(ModeMachineReadme, ShowsTheTablesOfTheCode) {
     if (row.mode == Mode::kGrounded) table << (row.armed ? ", armed" : ", disarmed");
     table << " |";
     for (const Kind kind : kRequestKinds) {
-      table << " " << cell(ModeMachine::rule(row.mode, row.armed, kind)) << " |";
+      table << " " << cell(request_rule(row.mode, row.armed, kind)) << " |";
     }
   }
   table << "\n";
   // Rules that differ in nothing but where they lead from are one line.
   std::ostringstream events;
   events << "| from | what happens | to |\n| --- | --- | --- |\n";
-  const std::vector<EventRule>& rules = ModeMachine::event_rules();
+  const std::vector<EventRule>& rules = event_rules();
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const bool goes_on =
         i > 0 && rules[i].event == rules[i - 1].event && rules[i].to == rules[i - 1].to;
