@@ -14,27 +14,26 @@ Status CommandAuthority::claim(const std::string& station, Time now) {
                     "give {}), and loses it when it was not heard for {:g} s",
                     current, station, station, to_seconds(lease_))};
   }
-  state_ = {station, now};
-  giver_.clear();
+  state_ = {station, now, ""};
   return {};
 }
 
 Status CommandAuthority::take(const std::string& station, Time now) {
-  if (!station.empty() && station == giver_) state_ = {};
+  if (!station.empty() && station == state_.giver) state_ = {};
   return claim(station, now);
 }
 
 void CommandAuthority::hear(const std::string& station, Time now) {
   if (station.empty() || holder(now) != station) return;
   state_.heard = now;
-  giver_.clear();
+  state_.giver.clear();
 }
 
 Status CommandAuthority::give(const std::string& station, const std::string& successor, Time now) {
   if (successor.empty()) return Error{"give it to whom?"};
   if (Status claimed = claim(station, now); !claimed.ok()) return claimed;
   state_.holder = successor;
-  if (successor != station) giver_ = station;
+  if (successor != station) state_.giver = station;
   return {};
 }
 

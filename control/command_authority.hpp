@@ -17,6 +17,7 @@ class CommandAuthority {
   struct State {
     std::string holder;  ///< "" where no station has control
     Time heard{};        ///< when the holder was heard last
+    std::string giver;   ///< of whom the holder has it, until the holder is heard
   };
 
   explicit CommandAuthority(Duration lease) : lease_(lease) {}
@@ -44,7 +45,6 @@ class CommandAuthority {
  private:
   Duration lease_;
   State state_;
-  std::string giver_;  ///< of whom who has control now has it, until that one is heard
 };
 
 }  // namespace swiftlet

@@ -70,10 +70,11 @@ bool AuthorityDesk::is_of_holder(const swiftlet_msgs::msg::ComponentStatus& hear
 void AuthorityDesk::write(swiftlet_msgs::msg::CommanderState& state) const {
   state.station(authority_.state().holder);
   state.station_heard(to_msg(authority_.state().heard));
+  state.station_giver(authority_.state().giver);
 }
 
 void AuthorityDesk::restore(const swiftlet_msgs::msg::CommanderState& state) {
-  authority_.restore({state.station(), from_msg(state.station_heard())});
+  authority_.restore({state.station(), from_msg(state.station_heard()), state.station_giver()});
 }
 
 }  // namespace swiftlet

@@ -90,6 +90,10 @@ TEST_F(CommandAuthorityTest, AStandbyKnowsIt) {
   standby.restore(authority.state());
   EXPECT_FALSE(standby.claim("tablet", kBegin + 1s).ok());
   EXPECT_TRUE(standby.claim("tablet", kBegin + 31s).ok());
+
+  ASSERT_TRUE(authority.give("base", "tabelt", kBegin).ok());
+  standby.restore(authority.state());
+  EXPECT_TRUE(standby.take("base", kBegin + 1s).ok());
 }
 
 }  // namespace
