@@ -19,6 +19,11 @@ namespace {
 constexpr double kReaction = 0.05;
 /// A last setpoint that is older is no beginning for a brake [s].
 constexpr double kRecent = 0.05;
+/// After it a commander knows nothing of the flight that was [s].
+constexpr double kSilence = 0.3;
+constexpr double kSonarTimeout = 0.5;  // [s]
+/// A vehicle that is tilted by more lies on the ground, and the sonar looks elsewhere.
+constexpr double kLeastUpright = 0.5;  // cosine
 constexpr int kBrakeSamples = 16;
 
 bool is_finite(const FlatReference& r) {
@@ -31,8 +36,8 @@ bool is_finite(const FlatReference& r) {
 
 FlightGuard::FlightGuard(const Params& params) : params_(params) {
   const std::initializer_list<double> positive{
-      params.vehicle_radius,   params.max_speed,     params.max_gap,     params.obstacles_timeout,
-      params.release_distance, params.release_speed, params.release_time};
+      params.vehicle_radius,   params.max_speed,     params.max_gap,      params.obstacles_timeout,
+      params.release_distance, params.release_speed, params.release_time, params.flying_height};
   const bool fine = std::all_of(positive.begin(), positive.end(),
                                 [](double v) { return v > 0.0 && std::isfinite(v); }) &&
                     params.margin >= 0.0 && params.fence_radius >= 0.0 &&
@@ -51,7 +56,9 @@ void FlightGuard::set_obstacles(NearObstacles obstacles, Time time) {
 }
 
 std::optional<FlightSetpoint> FlightGuard::check(const FlightSetpoint& setpoint) {
-  if (setpoint.kind != SetpointKind::kTrack || !state_) {
+  const bool watched = is_watched(setpoint);
+  heard_ = setpoint.time;
+  if (!watched) {
     holding_.reset();
     last_sound_.reset();
     return std::nullopt;
@@ -69,8 +76,29 @@ std::optional<FlightSetpoint> FlightGuard::check(const FlightSetpoint& setpoint)
   return FlightSetpoint{setpoint.time, SetpointKind::kTrack, holding_->evaluate(setpoint.time)};
 }
 
+/// Whether it is to be flown along, or turns the motors off in the middle of a flight.
+bool FlightGuard::is_watched(const FlightSetpoint& setpoint) const {
+  if (!state_) return false;
+  if (setpoint.kind != SetpointKind::kMotorsOff) return setpoint.kind == SetpointKind::kTrack;
+  const bool was_flown = (holding_ || last_sound_) && heard_ &&
+                         std::abs(to_seconds(setpoint.time - *heard_)) < kSilence;
+  return was_flown && flying_height(setpoint.time);
+}
+
+/// Above the ground, where it cannot be standing there [m].
+std::optional<double> FlightGuard::flying_height(Time now) const {
+  if (!range_down_ || std::abs(to_seconds(now - range_down_->first)) > kSonarTimeout) return {};
+  const double upright = (state_->q_WB * Eigen::Vector3d::UnitZ()).z();
+  const bool flies = range_down_->second > params_.flying_height && upright > kLeastUpright;
+  return flies ? std::optional<double>(range_down_->second) : std::nullopt;
+}
+
 /// What is wrong with a setpoint; "" where nothing is.
 std::string FlightGuard::problem(const FlightSetpoint& setpoint) const {
+  if (setpoint.kind == SetpointKind::kMotorsOff) {
+    return fmt::format("the setpoint turns the motors off {:.1f} m above the ground",
+                       *flying_height(setpoint.time));
+  }
   const FlatReference& r = setpoint.reference;
   if (!is_finite(r)) return "the setpoint is no number";
   if (const double speed = r.velocity.norm(); speed > params_.max_speed) {
@@ -79,36 +107,51 @@ std::string FlightGuard::problem(const FlightSetpoint& setpoint) const {
   if (const double gap = (r.position - state_->p_WB).norm(); gap > params_.max_gap) {
     return fmt::format("the setpoint is {:.1f} m away", gap);
   }
-  if (home_) {
-    const Eigen::Vector3d from_home = r.position - *home_;
-    const double beyond = from_home.head<2>().norm() - params_.fence_radius;
-    const double above = from_home.z() - params_.fence_height;
-    if (params_.fence_radius > 0.0 && beyond > 0.0 && from_home.dot(r.velocity) > 0.0) {
-      return fmt::format("the setpoint is {:.1f} m outside of the fence", beyond);
-    }
-    if (params_.fence_height > 0.0 && above > 0.0 && r.velocity.z() > 0.0) {
-      return fmt::format("the setpoint is {:.1f} m above the fence", above);
-    }
-  }
-  return collision(setpoint);
+  const auto brake = brake_from_now(setpoint);
+  if (!brake) return "";
+  const std::string outside = breach(setpoint, *brake);
+  return outside.empty() ? collision(setpoint, *brake) : outside;
 }
 
-/// Whether a brake that begins now ends too near to something that was seen.
-std::string FlightGuard::collision(const FlightSetpoint& setpoint) const {
-  if (!obstacles_seen_) return "";
-  if (std::abs(to_seconds(setpoint.time - *obstacles_seen_)) > params_.obstacles_timeout) return "";
+std::optional<FlightReference> FlightGuard::brake_from_now(const FlightSetpoint& setpoint) const {
   FlatReference from = setpoint.reference;
   from.position = state_->p_WB + kReaction * state_->v_WB_W;
   from.velocity = state_->v_WB_W;
   const auto brake = FlightReference::brake(setpoint.time, from, params_.braking);
-  if (!brake.ok()) return "";
+  return brake.ok() ? std::optional<FlightReference>(*brake) : std::nullopt;
+}
+
+/// Whether it ends outside of the fence, and the setpoint leads farther out.
+std::string FlightGuard::breach(const FlightSetpoint& setpoint,
+                                const FlightReference& brake) const {
+  if (!home_) return "";
+  const Eigen::Vector3d from_home = setpoint.reference.position - *home_;
+  const Eigen::Vector3d& velocity = setpoint.reference.velocity;
+  const Eigen::Vector3d end = brake.at(brake.end()).position - *home_;
+  const double beyond = end.head<2>().norm() - params_.fence_radius;
+  const double above = end.z() - params_.fence_height;
+  if (params_.fence_radius > 0.0 && beyond > 0.0 &&
+      from_home.head<2>().dot(velocity.head<2>()) > 0.0) {
+    return fmt::format("a stop now would end {:.2f} m outside of the fence", beyond);
+  }
+  if (params_.fence_height > 0.0 && above > 0.0 && velocity.z() > 0.0) {
+    return fmt::format("a stop now would end {:.2f} m above the fence", above);
+  }
+  return "";
+}
+
+/// Whether it ends too near to something that was seen.
+std::string FlightGuard::collision(const FlightSetpoint& setpoint,
+                                   const FlightReference& brake) const {
+  if (!obstacles_seen_) return "";
+  if (std::abs(to_seconds(setpoint.time - *obstacles_seen_)) > params_.obstacles_timeout) return "";
   const double least = params_.vehicle_radius + params_.margin;
   const double now = obstacles_.clearance(state_->p_WB.head<2>());
   double clearance = now;
-  const double duration = to_seconds(brake->end() - brake->start());
+  const double duration = to_seconds(brake.end() - brake.start());
   for (int i = 1; i <= kBrakeSamples; ++i) {
-    const Time time = brake->start() + from_seconds(duration * i / kBrakeSamples);
-    clearance = std::min(clearance, obstacles_.clearance(brake->at(time).position.head<2>()));
+    const Time time = brake.start() + from_seconds(duration * i / kBrakeSamples);
+    clearance = std::min(clearance, obstacles_.clearance(brake.at(time).position.head<2>()));
   }
   // Who is too near already may go away.
   if (clearance >= least || clearance >= now) return "";
