@@ -80,8 +80,9 @@ class LidarMapper : public Component {
       insert_waiting();
     });
     every(from_seconds(1.0 / params_.map_rate_hz), [this](Time now) {
-      if (!std::exchange(changed_, false)) return;
-      map_.publish(to_msg(locator_ ? locator_->slam().grid() : grid_, now));
+      const OccupancyGrid& grid = locator_ ? locator_->slam().grid() : grid_;
+      if (grid.empty() || !std::exchange(changed_, false)) return;
+      map_.publish(to_msg(grid, now));
     });
     if (params_.slam) begin_slam();
   }
@@ -122,15 +123,23 @@ class LidarMapper : public Component {
   /// Scans whose pose is known by now, or that have to do without, go into the map.
   void insert_waiting() {
     while (!waiting_.empty()) {
-      const bool alone = locator_ && poses_.empty();
-      if (!alone && (poses_.empty() || stamp(waiting_.front()) > poses_.newest())) return;
+      const bool known = !poses_.empty() && stamp(waiting_.front()) <= poses_.newest();
+      if (!known && !goes_alone()) return;
       // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
       const std::string& frame = waiting_.front().header().frame_id();
-      const auto mount = mounts_.find(alone ? frame : odometry_frame_, frame);
+      const auto mount = mounts_.find(poses_.empty() ? frame : odometry_frame_, frame);
       if (!mount) return;
       insert(waiting_.front(), *mount);
       waiting_.pop_front();
     }
+  }
+
+  /// Whether it finds its poses itself and has no odometry, or none for so long that scans do not
+  /// wait for it.
+  bool goes_alone() const {
+    if (!locator_) return false;
+    return poses_.empty() ||
+           stamp(waiting_.back()) - poses_.newest() > from_seconds(params_.max_odometry_gap);
   }
 
   static Time stamp(const sensor_msgs::msg::LaserScan& scan) {

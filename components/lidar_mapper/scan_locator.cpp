@@ -50,8 +50,14 @@ geometry_msgs::msg::PoseWithCovarianceStamped ScanLocator::locate(
         scanner_motion(message, scanner, odometry, mount, from_seconds(params_.max_odometry_gap));
     motion_.min_height = params_.grid.min_height;
     motion_.max_height = params_.grid.max_height;
-  } else if (odometry.empty()) {
-    motion_.height = 0.5 * (params_.grid.min_height + params_.grid.max_height);
+  } else {
+    // Nobody says how it moves and is tilted: as a body that hovers, where it was last.
+    motion_.q_HL = from_yaw(-yaw_of(mount.attitude)) * mount.attitude;
+    motion_.velocity.setZero();
+    motion_.yaw_rate = 0.0;
+    if (odometry.empty()) {
+      motion_.height = 0.5 * (params_.grid.min_height + params_.grid.max_height);
+    }
   }
   mount_ = mount;
   const LidarSlam::Update update = slam_.add(stamp(message), from_msg(message), motion_, moved);

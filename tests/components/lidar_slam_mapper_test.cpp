@@ -3,6 +3,8 @@
 // The mapper that finds its poses itself, in lockstep.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "components/lidar_mapper/grid_message.hpp"
 #include "tests/components/slam_bench.hpp"
 
@@ -44,6 +46,24 @@ TEST(LidarSlamMapper, OdometryHelpsAndItsDriftIsTakenOut) {
   const auto& last = bench.poses.back();
   EXPECT_LT(error_of(last.pose().pose(), SlamBench::truth(from_msg(last.header().stamp()))), 0.15);
   EXPECT_NEAR(last.pose().pose().position().z(), 1.0, 1e-6);
+}
+
+TEST(LidarSlamMapper, GoesOnAtOnceWhereOdometryEnds) {
+  SlamBench bench;
+  bench.tell({{0.1, 0.05, 0.2}, from_yaw(0.5)});
+  bench.send_odometry_that_drifts(Time(6s));
+  bench.send_scans({{0.1, 0.05}, 0.5});
+  std::vector<double> late;  // [s]
+  bench.probe.subscribe(
+      topic::lidar_pose, [&](const geometry_msgs::msg::PoseWithCovarianceStamped& pose) {
+        late.push_back(to_seconds(bench.probe.now() - from_msg(pose.header().stamp())));
+      });
+  bench.run_until(Time(20s));
+  ASSERT_GT(late.size(), 190u) << "one a scan, but for the last";
+  EXPECT_LT(*std::max_element(late.begin(), late.end()), 0.65) << "it waits once, for the gap";
+  EXPECT_LT(*std::max_element(late.begin() + 80, late.end()), 0.05);
+  const auto& last = bench.poses.back();
+  EXPECT_LT(error_of(last.pose().pose(), SlamBench::truth(from_msg(last.header().stamp()))), 0.15);
 }
 
 TEST(LidarSlamMapper, TheSameScansGiveTheSameBytes) {

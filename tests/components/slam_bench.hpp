@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "components/surroundings/scan_message.hpp"
 #include "components/static_transforms.hpp"
+#include "components/surroundings/scan_message.hpp"
 #include "estimation/geometry/so3.hpp"
 #include "tests/components/component_bench.hpp"
 #include "tests/perception/slam/floor_plan.hpp"
@@ -45,15 +45,17 @@ struct SlamBench : Bench {
     });
   }
   /// Of a body whose odometry is right at first and 10 % too long.
-  void send_odometry_that_drifts() {
-    every(topic::odometry, 10ms, Time{}, [](Time now) {
-      Pose2 pose = truth(now);
-      pose.position.x() += 0.1 * kSpeed * to_seconds(now);
-      RigidBodyState state;
-      state.p_WB = {pose.position.x(), pose.position.y(), 1.0};
-      state.q_WB = from_yaw(pose.yaw);
-      return to_odometry(now, state);
-    });
+  void send_odometry_that_drifts(Time until = Time::max()) {
+    every(
+        topic::odometry, 10ms, Time{}, [](Time now) { return drifting_odometry(now); }, until);
+  }
+  static nav_msgs::msg::Odometry drifting_odometry(Time now) {
+    Pose2 pose = truth(now);
+    pose.position.x() += 0.1 * kSpeed * to_seconds(now);
+    RigidBodyState state;
+    state.p_WB = {pose.position.x(), pose.position.y(), 1.0};
+    state.q_WB = from_yaw(pose.yaw);
+    return to_odometry(now, state);
   }
   void tell(const StaticTransforms::Pose& mount) {
     const auto publisher =
