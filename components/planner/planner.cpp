@@ -121,7 +121,7 @@ class Planner : public Component {
   /// relies on plans hears of it when no better one comes.
   void hear(const nav_msgs::msg::OccupancyGrid& map) {
     OccupancyGrid grid = from_msg(map, OccupancyGrid::Params());
-    if (grid.empty() && !map.data().empty()) {
+    if (grid.empty()) {
       if (!corrupt_since_) {
         corrupt_since_ = now();
         log()->warn("a map was refused: {} x {} cells of {} m, {} of them given",

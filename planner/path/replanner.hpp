@@ -40,7 +40,7 @@ class Replanner {
     TrajectoryPlanner::Params trajectory;
     Duration period = std::chrono::milliseconds(200);
     Duration lead = std::chrono::milliseconds(60);  ///< switch over so far ahead
-    Duration give_up_after = std::chrono::milliseconds(1000);
+    Duration give_up_after = std::chrono::milliseconds(800);
     double improvement = 0.03;        ///< cheaper by this share of the rest to be worth a change
     double brake_reserve_s = 0.3;     ///< on top of the time that braking takes
     double tracking_error_max = 0.5;  ///< farther off the reference, plan from the vehicle [m]

@@ -205,6 +205,31 @@ nav_msgs::msg::OccupancyGrid corrupt_map(Time now) {
   return map;
 }
 
+/// Goes on saying what the mapper said of itself, and sends maps that are none.
+struct MadMapper {
+  explicit MadMapper(ScriptedPilot& pilot) {
+    const std::string alive = topic::alive_name("lidar_mapper");
+    const Topic<swiftlet_msgs::msg::ComponentStatus> sign{alive.c_str(), topic::alive_qos};
+    pilot.subscribe(sign, [this](const auto& heard) {
+      if (!acts) last_sign = heard;
+    });
+    pilot.subscribe(topic::component_status, [this](const auto& heard) {
+      if (!acts && heard.component_name() == "lidar_mapper") last_status = heard;
+    });
+    pilot.every(std::chrono::milliseconds(20),
+                [this, &pilot, signs = pilot.advertise(sign),
+                 states = pilot.advertise(topic::component_status)](Time now) mutable {
+                  if (!acts) return;
+                  pilot.send_map(corrupt_map(now));
+                  signs.publish(last_sign);
+                  states.publish(last_status);
+                });
+  }
+
+  bool acts = false;
+  swiftlet_msgs::msg::ComponentStatus last_sign, last_status;
+};
+
 TEST_P(FaultTable, NothingIsTouchedAndTheReasonIsTold) {
   const FaultCase& c = GetParam();
   const std::string mode = c.mode;
@@ -214,8 +239,10 @@ TEST_P(FaultTable, NothingIsTouchedAndTheReasonIsTold) {
   const char* kDeath = mode == "Takeoff" ? "drop scan 100% @9..600" : "drop scan 100% @14.5..600";
   std::vector<Fault> faults;
   if (c.wrong == Wrong::kLidarDead) faults.push_back(parse_fault(kDeath));
+  const bool corrupt = c.wrong == Wrong::kMapCorrupt;
   ModeFlight flight("", faults);
   ScriptedPilot& pilot = flight.pilot();
+  MadMapper mad_mapper(pilot);
 
   Sticks sticks;
   if (mode == "Takeoff") {
@@ -261,28 +288,33 @@ TEST_P(FaultTable, NothingIsTouchedAndTheReasonIsTold) {
               [&] {
                 if (c.wrong == Wrong::kPlannerKilled) flight.kill("planner");
                 if (c.wrong == Wrong::kGuardKilled) flight.kill("guard");
+                if (!corrupt) return;
+                flight.kill("lidar_mapper");
+                mad_mapper.acts = true;
               },
               [] { return true; }, 60.0, sticks});
-  const bool ends =
-      (c.wrong == Wrong::kLidarDead && sees) || (c.wrong == Wrong::kPlannerKilled && planned);
+  const bool ends = (c.wrong == Wrong::kLidarDead && sees) ||
+                    (c.wrong == Wrong::kPlannerKilled && planned) || (corrupt && planned);
   if (ends) {
     flight.add({"stops", [] {}, [&] { return pilot.is_in("Hover"); }, 6.0, sticks});
     flight.check([&] {
       const char* culprit = c.wrong == Wrong::kPlannerKilled ? "planner"
+                            : corrupt                        ? "what comes on it is no map"
                             : planned                        ? "lidar_mapper"
                                                              : "LIDAR";
       EXPECT_THAT(pilot.status.reason(), HasSubstr(culprit));
     });
   } else {
-    flight.add({"goes on", [] {},
-                [&] {
-                  if (c.wrong == Wrong::kMapCorrupt) pilot.send_map(corrupt_map(Time{}));
-                  return pilot.step_s > 6.0;
-                },
-                10.0, sticks});
+    flight.add({"goes on", [] {}, [&] { return pilot.step_s > 6.0; }, 10.0, sticks});
     if (c.wrong == Wrong::kLidarDead) {
       flight.check(
           [&] { EXPECT_THAT(pilot.log, Contains(HasSubstr("lidar_mapper cannot work: scan"))); });
+    }
+    if (corrupt) {
+      flight.check([&] {
+        EXPECT_THAT(pilot.log,
+                    Contains(HasSubstr("planner cannot work: map: what comes on it is no map")));
+      });
     }
     if (c.wrong == Wrong::kPlannerKilled) {
       flight.check([&] { EXPECT_THAT(pilot.log, Contains(HasSubstr("planner"))); });
