@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -447,6 +448,85 @@ std::string cell(const RequestRule& rule) {
       break;
   }
   return "refused";
+}
+
+/// What makes it happen, and nothing else.
+Situation when(EventRule::Event event) {
+  using Event = EventRule::Event;
+  Situation s = flying();
+  switch (event) {
+    case Event::kLanded:
+      s.on_ground = true;
+      break;
+    case Event::kEstimateLost:
+      s.estimate_ok = false;
+      break;
+    case Event::kLandDemanded:
+      s.demand = Demand::kLand;
+      break;
+    case Event::kReturnDemanded:
+      s.demand = Demand::kReturn;
+      break;
+    case Event::kHoverDemanded:
+      s.demand = Demand::kHover;
+      break;
+    case Event::kTakeoffFailed:
+      s.on_ground = s.reference_finished = true;
+      break;
+    case Event::kReferenceFinished:
+      s.reference_finished = true;
+      break;
+    case Event::kReturnFailed:
+    case Event::kNavigationFailed:
+      s.navigation = Navigation::kFailed;
+      break;
+    case Event::kReturned:
+    case Event::kNavigationFinished:
+      s.navigation = Navigation::kFinished;
+      break;
+    case Event::kSticksSilent:
+      s.sticks_problem = "no remote control";
+      break;
+    case Event::kObstaclesUnseen:
+      s.obstacles_problem = "the LIDAR is silent";
+      break;
+  }
+  return s;
+}
+
+TEST(ModeMachineEvents, EachInEachModeDoesWhatTheTableSaysAndNothingElse) {
+  using Event = EventRule::Event;
+  std::size_t happened = 0;
+  for (int e = 0; e <= static_cast<int>(Event::kObstaclesUnseen); ++e) {
+    const auto event = static_cast<Event>(e);
+    for (const Mode mode : kModes) {
+      SCOPED_TRACE(std::string(to_string(event)) + " in " + to_string(mode));
+      const bool of_return = event == Event::kReturned || event == Event::kReturnFailed;
+      const bool can_return = mode == Mode::kGpsGuidance || mode == Mode::kIndoorNavigation;
+      if (of_return && !can_return) continue;
+      ModeMachine machine;
+      machine.restore({mode, mode != Mode::kGrounded, false, 1.0, 7, of_return});
+      const auto& rules = event_rules();
+      const auto rule = std::find_if(rules.begin(), rules.end(), [&](const EventRule& r) {
+        return r.event == event && r.from == mode;
+      });
+      Situation s = when(event);
+      auto transition = machine.update(s);
+      if (event == Event::kLanded) {
+        EXPECT_FALSE(transition) << "it takes a while";
+        s.now += std::chrono::seconds(1);
+        transition = machine.update(s);
+      }
+      ASSERT_EQ(transition.has_value(), rule != rules.end());
+      if (!transition) continue;
+      ++happened;
+      EXPECT_EQ(transition->from, mode);
+      EXPECT_EQ(transition->to, rule->to);
+      EXPECT_EQ(machine.mode(), rule->to);
+      EXPECT_NE(transition->reason, "");
+    }
+  }
+  EXPECT_EQ(happened, event_rules().size());
 }
 
 TEST(ModeMachineReadme, ShowsTheTablesOfTheCode) {
