@@ -73,11 +73,11 @@ TEST(TrajectoryPlanner, FliesThroughTheMiddleOfDoorways) {
   every(result.trajectory, 0.005, [&](double, const FlatReference& reference) {
     const Eigen::Vector3d& p = reference.position;
     if (p.y() > 4.0 && p.y() < 4.1) {
-      EXPECT_NEAR(p.x(), 2.45, 0.07);
+      EXPECT_NEAR(p.x(), 2.45, 0.05);
       lower = true;
     }
     if (p.y() > 6.0 && p.y() < 6.1) {
-      EXPECT_NEAR(p.x(), 12.45, 0.07);
+      EXPECT_NEAR(p.x(), 12.45, 0.05);
       upper = true;
     }
   });
