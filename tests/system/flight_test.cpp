@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <csignal>
+#include <map>
+#include <optional>
 #include <utility>
 
+#include "components/conversions.hpp"
 #include "components/lidar_mapper/grid_message.hpp"
+#include "estimation/geometry/pose2.hpp"
+#include "estimation/geometry/so3.hpp"
 #include "swiftlet_msgs.h"
 #include "tests/system/recorded.hpp"
 #include "tests/system/system_test.hpp"
@@ -14,6 +19,10 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+
+Pose2 planar(const geometry_msgs::msg::Pose& pose) {
+  return {{pose.position().x(), pose.position().y()}, yaw_of(from_msg(pose.orientation()))};
+}
 
 class Flight : public SystemTest {
  protected:
@@ -77,6 +86,32 @@ TEST_F(Flight, TheOfficeIsFlownWithinItsGoals) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "office" / file)) << file;
   }
   EXPECT_EQ(run({"bag", "verify", path("office.mcap")}).exit_code, 0);
+}
+
+TEST_F(Flight, InTheMapOfAMapperThatFindsItsPosesItself) {
+  Process process = start({"--log", "warning", "fly", office(), "--param", "lidar_mapper.slam=true",
+                           "--record", path("slam.mcap"), "--report", path("slam")});
+  expect_flown(arrive(std::move(process), "slam"));
+  const auto topics = read_topics(path("slam.mcap"));
+  std::map<std::int64_t, Pose2> truth;
+  for (const mcap::Bytes& bytes : topics.at("sim/truth")) {
+    const auto message = from_cdr<swiftlet_msgs::msg::SimTruth>(bytes).value();
+    truth[from_msg(message.header().stamp()).time_since_epoch().count()] = planar(message.pose());
+  }
+  std::optional<Pose2> T_truth_slam;
+  double worst = 0.0;
+  std::size_t compared = 0;
+  for (const mcap::Bytes& bytes : topics.at("lidar/pose")) {
+    const auto message = from_cdr<geometry_msgs::msg::PoseWithCovarianceStamped>(bytes).value();
+    const auto there = truth.find(from_msg(message.header().stamp()).time_since_epoch().count());
+    if (there == truth.end()) continue;
+    const Pose2 found = planar(message.pose().pose());
+    if (!T_truth_slam) T_truth_slam = there->second * found.inverse();
+    worst = std::max(worst, ((*T_truth_slam * found).position - there->second.position).norm());
+    ++compared;
+  }
+  EXPECT_GT(compared, 600U);
+  EXPECT_LT(worst, 0.10);
 }
 
 TEST_F(Flight, TheSameSeedGivesTheSameMessagesAndAnotherSeedOthers) {
