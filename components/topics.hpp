@@ -50,12 +50,14 @@ inline constexpr Topic<swiftlet_msgs::msg::Mission> waypoints{"waypoints", qos::
 /// A mission of one waypoint, from RViz's "2D Goal Pose" and its like. It is said once, so it must
 /// not get lost: reliable, as those tools offer by default.
 inline constexpr Topic<geometry_msgs::msg::PoseStamped> goal_pose{"goal_pose", qos::command};
-/// Who steers; the remote control, whatever it is.
+/// Who steers: remote control and ground stations, 20 times a second. All of them are heard, and
+/// the commander says whose word counts.
 inline constexpr Topic<swiftlet_msgs::msg::ManualControl> manual_control{"manual_control",
-                                                                         qos::command, 50ms};
-/// That a ground station is there, and to be missed until it says that it leaves.
+                                                                         qos::command};
+/// That a ground station is there, and to be missed until it says that it leaves; all of them are
+/// heard.
 inline constexpr Topic<swiftlet_msgs::msg::ComponentStatus> gcs_heartbeat{"gcs/heartbeat",
-                                                                          qos::state, 500ms};
+                                                                          qos::state};
 /// A mission on its way to the vehicle, in parts that are repeated until the vehicle has them all.
 inline constexpr Topic<swiftlet_msgs::msg::MissionPart> mission_upload{"mission/upload",
                                                                        qos::sensor};

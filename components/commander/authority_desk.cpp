@@ -13,8 +13,13 @@ std::string name_of(const std::string& station) {
   return station.empty() ? "unnamed" : station;
 }
 
-bool is_centred(const swiftlet_msgs::msg::ManualControl& sticks) {
-  return from_msg(sticks).deflection() == 0.0;
+using namespace std::chrono_literals;
+
+/// Sticks come twenty times a second; who is silent for so long does not steer any more.
+constexpr Duration kSilentSticks = 150ms;
+
+bool is_moved(const swiftlet_msgs::msg::ManualControl& sticks) {
+  return from_msg(sticks).deflection() != 0.0;
 }
 
 }  // namespace
@@ -30,10 +35,18 @@ Status AuthorityDesk::admit(const std::string& station, Time now) {
 }
 
 bool AuthorityDesk::admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
-  if (sticks.station().empty()) return true;
-  // Who touches nothing takes nothing.
-  const bool asks = holder(now) == sticks.station() || !is_centred(sticks);
-  return asks ? authority_.claim(sticks.station(), now).ok() : holder(now).empty();
+  const std::string& name = sticks.station();
+  const bool is_remote = name.empty(), moved = is_moved(sticks);
+  if (!is_remote) {
+    // Who touches nothing takes nothing.
+    const bool asks = holder(now) == name || moved;
+    if (asks ? !authority_.claim(name, now).ok() : !holder(now).empty()) return false;
+  }
+  const bool another =
+      steering_ && steering_->name != name && now - steering_->heard <= kSilentSticks;
+  if (another && !(moved && (is_remote || !steering_->moved))) return false;
+  steering_ = {name, moved, now};
+  return true;
 }
 
 std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
@@ -58,13 +71,18 @@ std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
   return Acceptance::kChanged;
 }
 
-void AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) {
-  authority_.hear(name_of(heartbeat.instance()), now);
+AuthorityDesk::Link AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat,
+                                        Time now) {
+  const std::string station = name_of(heartbeat.instance());
+  authority_.hear(station, now);
+  const bool counts = holder(now).empty() || holder(now) == station;
+  if (!counts || !(heartbeat.period() > 0.0)) return Link::kOfOthers;
+  linked_ = station;
+  return heartbeat.active() ? Link::kHeard : Link::kLeft;
 }
 
-bool AuthorityDesk::is_of_holder(const swiftlet_msgs::msg::ComponentStatus& heartbeat,
-                                 Time now) const {
-  return holder(now).empty() || holder(now) == name_of(heartbeat.instance());
+bool AuthorityDesk::link_is_of_others(Time now) const {
+  return !holder(now).empty() && holder(now) != linked_;
 }
 
 void AuthorityDesk::write(swiftlet_msgs::msg::CommanderState& state) const {

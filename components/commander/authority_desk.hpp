@@ -22,17 +22,25 @@ class AuthorityDesk {
 
   /// Whether a command of this station is to be carried out.
   Status admit(const std::string& station, Time now);
-  /// Whether these sticks steer. The vehicle's own remote control, which has no name, always does;
-  /// those of a station take control when they are moved.
+  /// Whether these sticks steer. The vehicle's own remote control, which has no name, always may;
+  /// those of a station take control when they are moved. Of two that may, the one that is moved
+  /// does, and of two that are moved the remote control.
   bool admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now);
   /// Carries out what is about control itself, for which a station need not have been admitted;
   /// nothing where it is another command.
   std::optional<Result<Acceptance>> carry_out(const swiftlet_msgs::msg::ModeCommand& command,
                                               Time now);
-  void hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now);
 
-  /// Whether it is that of who has control, or nobody has.
-  bool is_of_holder(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now) const;
+  /// What a heartbeat says of the link to who has control, or to anybody where nobody has.
+  enum class Link {
+    kOfOthers,  ///< nothing: who only looks is no link, and who promises nothing is not missed
+    kHeard,     ///< from now on it is missed where it falls silent
+    kLeft,      ///< not any more
+  };
+  Link hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat, Time now);
+  /// Whether the link was heard of another station than the one that has control by now: that one
+  /// has never been there to be missed.
+  bool link_is_of_others(Time now) const;
 
   /// "" where no station has control.
   const std::string& holder(Time now) const { return authority_.holder(now); }
@@ -42,7 +50,15 @@ class AuthorityDesk {
   void restore(const swiftlet_msgs::msg::CommanderState& state);
 
  private:
+  struct Steering {
+    std::string name;
+    bool moved = false;
+    Time heard{};
+  };
+
   CommandAuthority authority_;
+  std::optional<Steering> steering_;
+  std::string linked_;  // whose link was heard last
 };
 
 }  // namespace swiftlet

@@ -168,14 +168,9 @@ class Commander : public Component {
     subscribe(
         topic::gcs_heartbeat,
         [this](const swiftlet_msgs::msg::ComponentStatus& station) {
-          authority_.hear(station, now());
-          if (!(station.period() > 0.0)) return;  // it promises nothing, and is not missed
-          if (!authority_.is_of_holder(station, now())) return;  // who only looks is no link
-          if (station.active()) {
-            director_.set_link_heard(now());
-          } else {
-            director_.set_link_left();
-          }
+          const AuthorityDesk::Link link = authority_.hear(station, now());
+          if (link == AuthorityDesk::Link::kHeard) director_.set_link_heard(now());
+          if (link == AuthorityDesk::Link::kLeft) director_.set_link_left();
         },
         Need::kOptional);
   }
@@ -390,6 +385,7 @@ class Commander : public Component {
     if (holder == last_holder_) return;
     log()->debug("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
     last_holder_ = holder;
+    if (authority_.link_is_of_others(now)) director_.set_link_left();
     publish_state(now);
     publish_status(now);
   }

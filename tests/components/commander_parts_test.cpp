@@ -79,16 +79,53 @@ TEST(AuthorityDesk, SticksThatNobodyTouchesTakeNoControl) {
   EXPECT_EQ(desk.holder(Time(155s)), "base") << "who has control shows that it is there";
 }
 
-TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
+TEST(AuthorityDesk, OfTwoWhoMaySteerTheOneThatMovesHisSticksDoes) {
   AuthorityDesk desk(30s);
-  ComponentStatus base, tablet;
-  base.instance("base");
-  tablet.instance("tablet");
-  EXPECT_TRUE(desk.is_of_holder(tablet, Time(100s))) << "nobody has control";
+  Time now(100s);
+  const auto steers = [&](const std::string& station, float forward) {
+    swiftlet_msgs::msg::ManualControl message;
+    message.station(station);
+    message.forward(forward);
+    now += 10ms;
+    return desk.admit_sticks(message, now);
+  };
+  EXPECT_TRUE(steers("", 0.0f));
+  EXPECT_FALSE(steers("base", 0.0f)) << "two that lie still: the first";
+  EXPECT_TRUE(steers("base", 0.5f)) << "the remote control lies on the table, switched on";
+  EXPECT_FALSE(steers("", 0.0f));
+  EXPECT_TRUE(steers("", -0.5f)) << "and is taken up";
+  EXPECT_FALSE(steers("base", 0.5f));
+  EXPECT_TRUE(steers("", 0.0f));
+  EXPECT_FALSE(steers("base", 0.0f));
+  now += 200ms;
+  EXPECT_TRUE(steers("base", 0.0f)) << "it was switched off";
+  EXPECT_FALSE(steers("tablet", 0.5f)) << "who has no control does not, and keeps nobody from it";
+  EXPECT_TRUE(steers("base", 0.0f));
+}
+
+TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
+  using Link = AuthorityDesk::Link;
+  AuthorityDesk desk(30s);
+  const auto heard = [&desk](const char* station, Time now, bool stays = true,
+                             double period = 0.25) {
+    ComponentStatus heartbeat;
+    heartbeat.instance(station);
+    heartbeat.period(period);
+    heartbeat.active(stays);
+    return desk.hear(heartbeat, now);
+  };
+  EXPECT_EQ(heard("tablet", Time(100s)), Link::kHeard) << "nobody has control";
   ASSERT_TRUE(desk.admit("base", Time(100s)).ok());
-  EXPECT_TRUE(desk.is_of_holder(base, Time(101s)));
-  EXPECT_FALSE(desk.is_of_holder(tablet, Time(101s)));
-  EXPECT_TRUE(desk.is_of_holder(tablet, Time(131s))) << "base has been away for too long";
+  EXPECT_TRUE(desk.link_is_of_others(Time(100s)))
+      << "base commands by verbs: it was never there to be missed";
+  EXPECT_EQ(heard("tablet", Time(101s)), Link::kOfOthers);
+  EXPECT_EQ(heard("base", Time(101s), true, 0.0), Link::kOfOthers) << "it promises nothing";
+  EXPECT_TRUE(desk.link_is_of_others(Time(101s)));
+  EXPECT_EQ(heard("base", Time(101s)), Link::kHeard);
+  EXPECT_FALSE(desk.link_is_of_others(Time(101s)));
+  EXPECT_EQ(heard("tablet", Time(102s), false), Link::kOfOthers);
+  EXPECT_EQ(heard("base", Time(102s), false), Link::kLeft);
+  EXPECT_EQ(heard("tablet", Time(133s)), Link::kHeard) << "base has been away for too long";
 }
 
 TEST(AuthorityDesk, WhatIsAboutControlIsCarriedOutByItAlone) {
