@@ -132,6 +132,10 @@ std::string FlightDirector::not_ready_reason(Time now) const {
     return "no motor commands were heard; is the flight_controller running?";
   }
   if (!range_down_) return "nothing was heard on range/down; is the sonar running?";
+  if (machine_.mode() == Mode::kGrounded && !sonar_near_ground()) {
+    return fmt::format("the ground is {:.2f} m below: set it down, or wait until it has landed",
+                       *range_down_);
+  }
   if (battery_percentage_ && *battery_percentage_ < params_.min_battery_percentage) {
     return fmt::format("battery at {:.0f} %, {:.0f} % are needed to take off",
                        *battery_percentage_ * 100.0, params_.min_battery_percentage * 100.0);

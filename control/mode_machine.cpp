@@ -29,6 +29,11 @@ constexpr double kSameAltitude = 1e-3;
 // Who hovers this close to the altitude of its take-off has not flown on since [m].
 constexpr double kStillThere = 0.2;
 
+/// All but arming, which has its own words for it.
+bool is_about_flight(Kind kind) {
+  return kind != Kind::kArm && kind != Kind::kDisarm && kind != Kind::kTakeoff;
+}
+
 std::string because(const char* what, const std::string& detail) {
   return detail.empty() ? std::string(what) : fmt::format("{}: {}", what, detail);
 }
@@ -92,6 +97,11 @@ Result<Acceptance> ModeMachine::request(const Request& request, const Situation&
     return Error{fmt::format("{} refused: {}", to_string(request.kind), reason)};
   };
   const RequestRule rule = request_rule(mode_, armed_, request.kind);
+  if (mode_ == kGrounded && !situation.on_ground && is_about_flight(request.kind)) {
+    return refuse(
+        "it is above the ground, and not by an order of this commander: in flight, the "
+        "flight_controller lands it by itself");
+  }
   if (rule.answer == kRefuse) return refuse(rule.reason);
   if (rule.answer == kAlready) {
     return request.kind == Kind::kTakeoff ? take_off_again(request, situation)

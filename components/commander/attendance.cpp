@@ -58,12 +58,12 @@ const Attendance::Instance* Attendance::leader(const Instances& instances, Time 
   return leader;
 }
 
-std::string Attendance::problem(Time now) const {
+std::string Attendance::problem(Time now, bool in_flight) const {
   for (const auto& [component, instances] : components_) {
     const Instance* active = leader(instances, now);
     if (active == nullptr) continue;
     const double age = to_seconds(now - active->heard);
-    if (age > kGone) continue;
+    if (age > kGone && !in_flight) continue;
     if (age > kSilentStatus) {
       return fmt::format("{}: silent for {:.1f} s; does its process live?", component, age);
     }

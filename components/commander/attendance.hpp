@@ -20,8 +20,8 @@ class Attendance {
   void heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now);
 
   /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
-  /// writes it". "" where all is well. Who went away long ago is forgotten.
-  std::string problem(Time now) const;
+  /// writes it". "" where all is well. Who went away long ago is forgotten, but not in flight.
+  std::string problem(Time now, bool in_flight = false) const;
   /// That a component without which nothing can be flown has not said how it is; only its status
   /// tells that it hears what is sent to it. "" where it has.
   std::string absence(const std::string& component, Time now) const;

@@ -82,12 +82,12 @@ class Commander : public Component {
         {{"fence_radius", "fence_height", "low_battery", "critical_battery", "link_timeout",
           "on_fence", "on_low_battery", "on_critical_battery", "on_link_loss", "obstacle_distance",
           "stick_speed", "stick_climb_speed", "stick_turn_rate", "gps_altitude", "gps_speed",
-          "landing_speed", "plan_timeout", "exploration_timeout"},
+          "landing_speed", "plan_timeout", "plan_margin", "exploration_timeout"},
          {"min_altitude", "max_altitude", "takeoff_speed", "braking_acceleration",
           "arrival_distance", "estimate_sigma_max", "heading_sigma_to_arm", "settling_to_arm",
           "min_battery_percentage", "stick_dead_band", "takeover", "vehicle_radius", "endurance",
           "control_lease"},
-         [this] { return director_.state().machine.mode != Mode::kGrounded; },
+         [this] { return is_in_flight(); },
          [this](const Config& changed) { apply(changed); }});
   }
 
@@ -235,6 +235,8 @@ class Commander : public Component {
       director_.set_obstacles(std::move(seen->obstacles), seen->time);
     }
   }
+
+  bool is_in_flight() const { return director_.state().machine.mode != Mode::kGrounded; }
 
   /// What a station commands, where it has control or can have it.
   template <class Command>
@@ -396,7 +398,7 @@ class Commander : public Component {
   }
 
   std::string system_problem(Time now) const {
-    const std::string problem = attendance_.problem(now);
+    const std::string problem = attendance_.problem(now, is_in_flight());
     return problem.empty() ? attendance_.absence("flight_controller", now) : problem;
   }
 

@@ -40,7 +40,7 @@ struct MissionCheckParams {
   double longest_leg = 1000.0;        ///< a longer one is a mistake [m]
 
   const OccupancyGrid* map = nullptr;  ///< of its band of heights; where obstacles are known
-  double clearance = 0.25;             ///< from the vehicle's centre to an obstacle [m]
+  double clearance = 0.35;             ///< from the vehicle's centre to an obstacle [m]
 
   // As the commander and the planner fly.
   double gps_altitude = 15.24;  ///< of waypoints on Earth that have none [m]

@@ -12,6 +12,7 @@
 #include "components/mission_state_name.hpp"
 #include "components/runtime/number_check.hpp"
 #include "components/topics.hpp"
+#include "estimation/basics/whole_file.hpp"
 #include "gcs/mission/mission_file.hpp"
 #include "gcs/verbs/command_options.hpp"
 #include "gcs/verbs/first_message.hpp"
@@ -37,6 +38,9 @@ void upload(const GroundOptions& network, const std::string& file, MissionBegin 
 void download(const GroundOptions& network, const std::string& file, double patience) {
   if (const auto form = mission_form_of(file); !form.ok()) {
     end_verb(kExitUnusable, form.error().reason);
+  }
+  if (const Status place = check_writable(file); !place.ok()) {
+    end_verb(kExitUnusable, place.error().reason);
   }
   const MissionFile mission = fetch_mission(network, patience);
   if (mission.items.empty()) end_verb(kExitFailed, "the vehicle has no mission");

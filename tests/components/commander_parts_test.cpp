@@ -210,6 +210,13 @@ TEST(Attendance, ProblemsThatOthersReportKeepFromArming) {
   EXPECT_EQ(attendance.problem(Time(10300ms)), "");
 }
 
+TEST(Attendance, WhoLeftLongAgoIsMissedInFlightAlone) {
+  Attendance attendance;
+  attendance.heard_status(status("planner", "a", true, 1), Time(10s));
+  EXPECT_EQ(attendance.problem(Time(25s)), "");
+  EXPECT_THAT(attendance.problem(Time(25s), true), HasSubstr("planner: silent for 15.0 s"));
+}
+
 TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {
   Attendance attendance;
   const auto heard = [&](Time now, bool blocked) {
@@ -346,6 +353,7 @@ TEST(LimitsMessage, SaysWhatTheDirectorHoldsFlightsTo) {
   config.set("takeoff_speed", "0.7");
   config.set("landing_speed", "0.3");
   config.set("vehicle_radius", "0.4");
+  config.set("plan_margin", "0.2");
   config.set("endurance", "600");
   MissionRunner::Params runner;
   runner.most_items = 70;
@@ -355,7 +363,7 @@ TEST(LimitsMessage, SaysWhatTheDirectorHoldsFlightsTo) {
   EXPECT_EQ(limits.gps_speed(), 2.5);
   EXPECT_EQ(limits.climb_speed(), 0.7);
   EXPECT_EQ(limits.descent_speed(), 0.3);
-  EXPECT_EQ(limits.radius(), 0.4);
+  EXPECT_EQ(limits.clearance(), 0.4 + 0.2);
   EXPECT_EQ(limits.endurance(), 600.0);
   EXPECT_EQ(limits.most_items(), 70u);
   EXPECT_EQ(limits.low_battery(), FlightDirector::Params().low_battery);

@@ -55,6 +55,21 @@ TEST_P(Succession, TheFlightGoesOnWithoutAStep) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Succession, testing::Range(1, 11));
 
+TEST(SuccessionWithoutState, WhoBeginsAnewInFlightDoesNotCallItLanded) {
+  DirectorFlight flight;
+  flight.vehicle.p_WB.z() = 1.2;
+  flight.feed();
+  EXPECT_EQ(flight.mode(), Mode::kGrounded);
+  EXPECT_FALSE(flight.status().ready);
+  EXPECT_THAT(flight.status().reason, testing::HasSubstr("the ground is 1.15 m below"));
+  const auto landing = flight.director.request(Request::land(), flight.now);
+  ASSERT_FALSE(landing.ok());
+  EXPECT_THAT(landing.error().reason, testing::HasSubstr("land refused: it is above the ground"));
+  flight.vehicle.p_WB.z() = 0.0;
+  flight.feed();
+  EXPECT_TRUE(flight.status().ready) << flight.status().reason;
+}
+
 TEST(FlightDirectorGuidance, AMissionEndsInHoverWhenThoseWhoGuideItFallSilent) {
   DirectorFlight flight;
   flight.answer_once();

@@ -215,6 +215,11 @@ TEST(ModeMachineRequests, RefusalsNameTheCulprit) {
     EXPECT_THAT(reason(in(Mode::kGrounded), Request::takeoff(altitude), grounded()),
                 HasSubstr("is not from 0.30 to 10.00 m"));
   }
+  // A commander that was restarted in flight takes it for grounded.
+  for (const Request& request : {Request::land(), Request::hover(), Request::go_back()}) {
+    EXPECT_THAT(reason(in(Mode::kGrounded, false), request, flying()),
+                HasSubstr("refused: it is above the ground, and not by an order"));
+  }
   s = grounded();
   s.estimate_ok = false;
   s.estimate_problem = "no pose for 0.6 s";

@@ -77,6 +77,8 @@ std::optional<KeyCode> character_key(wint_t character) {
     case '\x7f':
     case '\b':
       return KeyCode::kBackspace;
+    case '\x15':
+      return KeyCode::kEraseLine;
     case '\t':
       return KeyCode::kTab;
     default:

@@ -141,7 +141,7 @@ LimitsReport report_of(const swiftlet_msgs::msg::FlightLimits& limits) {
           limits.gps_speed(),
           limits.climb_speed(),
           limits.descent_speed(),
-          limits.radius(),
+          limits.clearance(),
           limits.low_battery(),
           limits.endurance(),
           limits.most_items()};

@@ -19,7 +19,7 @@ void take(const LimitsReport& limits, MissionCheckParams& check) {
   take_known(limits.gps_speed, check.gps_speed);
   take_known(limits.climb_speed, check.climb_speed);
   take_known(limits.descent_speed, check.descent_speed);
-  take_known(limits.radius, check.clearance);
+  take_known(limits.clearance, check.clearance);
   if (limits.gps_speed > 0.0) check.flown_speed = limits.gps_speed;
   if (limits.most_items > 0) check.most_items = limits.most_items;
 }
@@ -32,6 +32,8 @@ Circumstances circumstances_of(const GroundStationModel& model, Time now) {
   const auto& vehicle = model.vehicle();
   circumstances.in_flight = vehicle.known() && vehicle->in_flight;
   circumstances.mission_flies = model.mission_flies();
+  circumstances.mission_done =
+      model.mission().known() && model.mission()->state == MissionReport::State::kDone;
   circumstances.has_control = model.has_control();
   if (model.pose().known() && model.pose()->p_WB.allFinite()) {
     circumstances.vehicle = model.pose()->p_WB;

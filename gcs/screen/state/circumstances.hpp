@@ -18,6 +18,7 @@ struct Circumstances {
   Time now{};
   bool in_flight = false;
   bool mission_flies = false;                ///< that the vehicle has
+  bool mission_done = false;                 ///< all of it, and it has no other
   bool has_control = false;                  ///< this ground station
   std::optional<Eigen::Vector3d> vehicle{};  ///< in the map [m]
   std::vector<std::string> components{};     ///< that have parameters

@@ -95,7 +95,7 @@ std::vector<Action> Controller::fly(Deed deed, const Circumstances& circumstance
     case Deed::kHover:
       return hover(circumstances);
     case Deed::kGoOn:
-      return {action(Kind::kGoOn)};
+      return go_on(circumstances);
     case Deed::kReturn:
       return {action(Kind::kReturn)};
     case Deed::kExplore:
@@ -170,7 +170,7 @@ Eigen::Vector3d Controller::place(const Circumstances& circumstances) const {
 std::vector<Action> Controller::use_cursor(Deed deed, const Circumstances& circumstances) {
   if (look(deed)) return {};
   if (deed == Deed::kHover) return hover(circumstances);
-  if (deed == Deed::kGoOn) return {action(Action::Kind::kGoOn)};
+  if (deed == Deed::kGoOn) return go_on(circumstances);
   map_.move_cursor(deed);
   if (deed != Deed::kLeave && deed != Deed::kAccept) return {};
   Action go_to = action(Action::Kind::kGoTo);
@@ -186,10 +186,19 @@ std::vector<Action> Controller::hover(const Circumstances& circumstances) const 
   return {action(circumstances.mission_flies ? Action::Kind::kPauseMission : Action::Kind::kHover)};
 }
 
+/// Through the first item only by `s` of the list, which is asked for by name.
+std::vector<Action> Controller::go_on(const Circumstances& circumstances) const {
+  if (!circumstances.mission_done) return {action(Action::Kind::kGoOn)};
+  return {message(Action::Kind::kTell, Severity::kCaution,
+                  "the mission is done; w m s flies it again from its first item")};
+}
+
 std::vector<Action> Controller::edit_text(Deed deed) {
   if (deed == Deed::kAccept) return accept_text();
   if (deed == Deed::kErase) {
     if (!text_.empty()) text_.pop_back();
+  } else if (deed == Deed::kEraseAll) {
+    text_.clear();
   } else {
     close();
   }

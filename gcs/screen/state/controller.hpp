@@ -65,6 +65,7 @@ class Controller {
   Actions answer(Deed deed);
   Actions steer(Deed deed);
   Actions hover(const Circumstances& circumstances) const;
+  Actions go_on(const Circumstances& circumstances) const;
   bool look(Deed deed);
   void begin_cursor(Keyboard keyboard, const Circumstances& circumstances);
   void end_cursor();

@@ -263,7 +263,7 @@ void GroundStationModel::tick(Time now) {
   if (!vehicle_.fresh(now)) return;
   for (auto component = components_.begin(); component != components_.end();) {
     const auto& [name, heard] = *component;
-    if (to_seconds(heard.age(now)) > kGone) {
+    if (to_seconds(heard.age(now)) > kGone && !vehicle_->in_flight) {
       component_problems_.erase(name);
       component = components_.erase(component);
       continue;

@@ -84,6 +84,7 @@ std::vector<Binding> make_bindings() {
        "open"},
       {{Keyboard::kText}, {KeyCode::kEnter}, Deed::kAccept, "Enter", "that is it", "done"},
       {{Keyboard::kText}, {KeyCode::kBackspace}, Deed::kErase, "Backspace", "one back"},
+      {{Keyboard::kText}, {KeyCode::kEraseLine}, Deed::kEraseAll, "Ctrl-U", "erase all of it"},
       {{Keyboard::kConfirm}, {k('y')}, Deed::kYes, "y", "yes"},
 
       {map, {k('+'), k('=')}, Deed::kZoomIn, "+", "zoom in"},

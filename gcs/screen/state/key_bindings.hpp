@@ -88,6 +88,7 @@ enum class Deed {
   kSwitch,
   kLetGo,
   kErase,
+  kEraseAll,
   kYes,
   kHelp,
   kQuit,

@@ -13,6 +13,7 @@ enum class KeyCode : char32_t {
   kEnter,
   kEscape,
   kBackspace,
+  kEraseLine,
   kDelete,
   kTab,
   kBackTab,

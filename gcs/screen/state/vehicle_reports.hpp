@@ -53,7 +53,7 @@ struct LimitsReport {
   double gps_speed = 0.0;      ///< the greatest in GPS Guidance [m/s]
   double climb_speed = 0.0;    ///< [m/s]
   double descent_speed = 0.0;  ///< of a landing [m/s]
-  double radius = 0.0;         ///< of the vehicle [m]
+  double clearance = 0.0;      ///< of waypoints, from the centre of the vehicle [m]
   double low_battery = 0.0;    ///< charge at which a flight is ended [0..1]
   double endurance = 0.0;      ///< of a full battery in the air [s]
   std::size_t most_items = 0;  ///< of a mission

@@ -28,7 +28,7 @@ std::vector<Action> Controller::edit_waypoints(Deed deed, const Circumstances& c
     case Deed::kHover:
       return hover(circumstances);
     case Deed::kGoOn:
-      return {action(Kind::kGoOn)};
+      return go_on(circumstances);
     case Deed::kMove: {
       const Status moved = waypoints_.move_to(*cursor(), circumstances.check.origin);
       if (moved.ok()) return {};
@@ -96,7 +96,10 @@ void Controller::edit_items(Deed deed, const Circumstances& circumstances) {
 
 /// What cannot be flown is not sent, and stays to be put right.
 std::vector<Action> Controller::start(const Circumstances& circumstances) {
-  if (waypoints_.empty()) return {};
+  if (waypoints_.empty()) {
+    return {
+        message(Kind::kTell, Severity::kCaution, "not sent: the list is empty; a adds an item")};
+  }
   MissionCheckParams params = circumstances.check;
   const OccupancyGrid map = circumstances.map ? known_map(*circumstances.map) : OccupancyGrid();
   params.map = &map;

@@ -123,7 +123,8 @@ TEST_F(ControllerTest, WaypointsAreEditedInPlaceAndFlownAsOneMission) {
     return controller.waypoints().items().at(i).item.place.position.x();
   };
   press("w");
-  EXPECT_THAT(press("s"), IsEmpty()) << "nothing to fly";
+  EXPECT_THAT(press("s"), ElementsAre(Kind::kTell));
+  EXPECT_THAT(last.text, HasSubstr("the list is empty"));
   const double step = controller.camera().cursor_step();
   for (int i = 0; i < 3; ++i) {
     press("a");
@@ -209,6 +210,16 @@ TEST_F(ControllerTest, SpacePausesAMissionThatFliesAndGoingOnIsOneKey) {
   EXPECT_THAT(press("h"), ElementsAre(Kind::kPauseMission));
 }
 
+TEST_F(ControllerTest, AMissionThatIsDoneIsNotGoneOnWith) {
+  circumstances.mission_done = true;
+  for (const char* keyboard : {"", "g", "w"}) {
+    press(keyboard);
+    EXPECT_THAT(press("u"), ElementsAre(Kind::kTell)) << keyboard;
+    EXPECT_THAT(last.text, HasSubstr("the mission is done"));
+    press(KeyCode::kEscape);
+  }
+}
+
 TEST_F(ControllerTest, TheClawIsNotOpenedInFlightByMistake) {
   EXPECT_THAT(press("c"), ElementsAre(Kind::kCloseClaw));
   EXPECT_THAT(press("o"), IsEmpty());
@@ -229,6 +240,8 @@ TEST_F(ControllerTest, FilesAreNamedAndTheLastNameIsRemembered) {
   EXPECT_EQ(last.file, "yard.plan");
   press("aw");
   EXPECT_EQ(controller.text(), "yard.plan");
+  press(KeyCode::kEraseLine);
+  EXPECT_EQ(controller.text(), "");
   EXPECT_THAT(write("b.yaml"), ElementsAre(Kind::kSave));
   EXPECT_EQ(last.file, "b.yaml");
   EXPECT_FALSE(last.replaces);
