@@ -19,11 +19,6 @@ namespace {
 constexpr double kReaction = 0.05;
 /// A last setpoint that is older is no beginning for a brake [s].
 constexpr double kRecent = 0.05;
-/// After it a commander knows nothing of the flight that was [s].
-constexpr double kSilence = 0.3;
-constexpr double kSonarTimeout = 0.5;  // [s]
-/// A vehicle that is tilted by more lies on the ground, and the sonar looks elsewhere.
-constexpr double kLeastUpright = 0.5;  // cosine
 constexpr int kBrakeSamples = 16;
 
 bool is_finite(const FlatReference& r) {
@@ -36,8 +31,8 @@ bool is_finite(const FlatReference& r) {
 
 FlightGuard::FlightGuard(const Params& params) : params_(params) {
   const std::initializer_list<double> positive{
-      params.vehicle_radius,   params.max_speed,     params.max_gap,      params.obstacles_timeout,
-      params.release_distance, params.release_speed, params.release_time, params.flying_height};
+      params.vehicle_radius,   params.max_speed,     params.max_gap,     params.obstacles_timeout,
+      params.release_distance, params.release_speed, params.release_time};
   const bool fine = std::all_of(positive.begin(), positive.end(),
                                 [](double v) { return v > 0.0 && std::isfinite(v); }) &&
                     params.margin >= 0.0 && params.fence_radius >= 0.0 &&
@@ -56,9 +51,7 @@ void FlightGuard::set_obstacles(NearObstacles obstacles, Time time) {
 }
 
 std::optional<FlightSetpoint> FlightGuard::check(const FlightSetpoint& setpoint) {
-  const bool watched = is_watched(setpoint);
-  heard_ = setpoint.time;
-  if (!watched) {
+  if (setpoint.kind != SetpointKind::kTrack || !state_) {
     holding_.reset();
     last_sound_.reset();
     return std::nullopt;
@@ -76,29 +69,8 @@ std::optional<FlightSetpoint> FlightGuard::check(const FlightSetpoint& setpoint)
   return FlightSetpoint{setpoint.time, SetpointKind::kTrack, holding_->evaluate(setpoint.time)};
 }
 
-/// Whether it is to be flown along, or turns the motors off in the middle of a flight.
-bool FlightGuard::is_watched(const FlightSetpoint& setpoint) const {
-  if (!state_) return false;
-  if (setpoint.kind != SetpointKind::kMotorsOff) return setpoint.kind == SetpointKind::kTrack;
-  const bool was_flown = (holding_ || last_sound_) && heard_ &&
-                         std::abs(to_seconds(setpoint.time - *heard_)) < kSilence;
-  return was_flown && flying_height(setpoint.time);
-}
-
-/// Above the ground, where it cannot be standing there [m].
-std::optional<double> FlightGuard::flying_height(Time now) const {
-  if (!range_down_ || std::abs(to_seconds(now - range_down_->first)) > kSonarTimeout) return {};
-  const double upright = (state_->q_WB * Eigen::Vector3d::UnitZ()).z();
-  const bool flies = range_down_->second > params_.flying_height && upright > kLeastUpright;
-  return flies ? std::optional<double>(range_down_->second) : std::nullopt;
-}
-
 /// What is wrong with a setpoint; "" where nothing is.
 std::string FlightGuard::problem(const FlightSetpoint& setpoint) const {
-  if (setpoint.kind == SetpointKind::kMotorsOff) {
-    return fmt::format("the setpoint turns the motors off {:.1f} m above the ground",
-                       *flying_height(setpoint.time));
-  }
   const FlatReference& r = setpoint.reference;
   if (!is_finite(r)) return "the setpoint is no number";
   if (const double speed = r.velocity.norm(); speed > params_.max_speed) {

@@ -19,7 +19,6 @@ constexpr Answer kAlready = Answer::kAlready;
 constexpr Answer kRefuse = Answer::kRefuse;
 constexpr Mode kGrounded = Mode::kGrounded;
 constexpr Mode kTakeoff = Mode::kTakeoff;
-constexpr Mode kHover = Mode::kHover;
 constexpr Mode kLand = Mode::kLand;
 constexpr Mode kGps = Mode::kGpsGuidance;
 constexpr Mode kNavigation = Mode::kIndoorNavigation;

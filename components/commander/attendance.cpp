@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace swiftlet {
@@ -58,12 +59,20 @@ const Attendance::Instance* Attendance::leader(const Instances& instances, Time 
   return leader;
 }
 
-std::string Attendance::problem(Time now, bool in_flight) const {
+void Attendance::forget_who_left(Time now) {
+  for (auto& [component, instances] : components_) {
+    for (auto instance = instances.begin(); instance != instances.end();) {
+      const bool left = to_seconds(now - instance->second.heard) > kGone;
+      instance = left ? instances.erase(instance) : std::next(instance);
+    }
+  }
+}
+
+std::string Attendance::problem(Time now) const {
   for (const auto& [component, instances] : components_) {
     const Instance* active = leader(instances, now);
     if (active == nullptr) continue;
     const double age = to_seconds(now - active->heard);
-    if (age > kGone && !in_flight) continue;
     if (age > kSilentStatus) {
       return fmt::format("{}: silent for {:.1f} s; does its process live?", component, age);
     }

@@ -19,9 +19,13 @@ class Attendance {
   void heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Time now);
   void heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now);
 
+  /// Those that were not heard for long are not missed any more: to be called where nothing is
+  /// flown by them.
+  void forget_who_left(Time now);
+
   /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
-  /// writes it". "" where all is well. Who went away long ago is forgotten, but not in flight.
-  std::string problem(Time now, bool in_flight = false) const;
+  /// writes it". "" where all is well.
+  std::string problem(Time now) const;
   /// That a component without which nothing can be flown has not said how it is; only its status
   /// tells that it hears what is sent to it. "" where it has.
   std::string absence(const std::string& component, Time now) const;

@@ -18,8 +18,11 @@ using namespace std::chrono_literals;
 /// Sticks come twenty times a second; who is silent for so long does not steer any more.
 constexpr Duration kSilentSticks = 150ms;
 
+/// Sticks that nobody touches tremble, and are not centred to the last bit.
+constexpr double kTouched = 0.05;
+
 bool is_moved(const swiftlet_msgs::msg::ManualControl& sticks) {
-  return from_msg(sticks).deflection() != 0.0;
+  return from_msg(sticks).deflection() > kTouched;
 }
 
 }  // namespace
@@ -71,18 +74,22 @@ std::optional<Result<Acceptance>> AuthorityDesk::carry_out(
   return Acceptance::kChanged;
 }
 
+std::string AuthorityDesk::giver(Time now) const {
+  return holder(now).empty() ? "" : authority_.state().giver;
+}
+
 AuthorityDesk::Link AuthorityDesk::hear(const swiftlet_msgs::msg::ComponentStatus& heartbeat,
                                         Time now) {
   const std::string station = name_of(heartbeat.instance());
   authority_.hear(station, now);
-  const bool counts = holder(now).empty() || holder(now) == station;
+  const bool counts = holder(now).empty() || holder(now) == station || giver(now) == station;
   if (!counts || !(heartbeat.period() > 0.0)) return Link::kOfOthers;
   linked_ = station;
   return heartbeat.active() ? Link::kHeard : Link::kLeft;
 }
 
 bool AuthorityDesk::link_is_of_others(Time now) const {
-  return !holder(now).empty() && holder(now) != linked_;
+  return !holder(now).empty() && holder(now) != linked_ && giver(now) != linked_;
 }
 
 void AuthorityDesk::write(swiftlet_msgs::msg::CommanderState& state) const {

@@ -50,6 +50,9 @@ class AuthorityDesk {
   void restore(const swiftlet_msgs::msg::CommanderState& state);
 
  private:
+  /// Who gave control to a station that was not heard since, and is a link until then.
+  std::string giver(Time now) const;
+
   struct Steering {
     std::string name;
     bool moved = false;

@@ -383,22 +383,23 @@ class Commander : public Component {
   }
 
   void tell_control(Time now) {
+    if (authority_.link_is_of_others(now)) director_.set_link_left();
     const std::string& holder = authority_.holder(now);
     if (holder == last_holder_) return;
     log()->debug("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
     last_holder_ = holder;
-    if (authority_.link_is_of_others(now)) director_.set_link_left();
     publish_state(now);
     publish_status(now);
   }
 
   void check_others(Time now) {
+    if (!is_in_flight()) attendance_.forget_who_left(now);
     if (ticks_ % kStatusEvery == 0) director_.set_system_problem(system_problem(now));
     director_.set_guidance_problem(attendance_.failure_of_any(kGuides, now));
   }
 
   std::string system_problem(Time now) const {
-    const std::string problem = attendance_.problem(now, is_in_flight());
+    const std::string problem = attendance_.problem(now);
     return problem.empty() ? attendance_.absence("flight_controller", now) : problem;
   }
 

@@ -21,7 +21,6 @@ FlightGuard::Params read_params(const Config& config) {
   config.read("margin", params.margin, kNotNegative);
   config.read("max_speed", params.max_speed, kPositive);
   config.read("max_gap", params.max_gap, kPositive);
-  config.read("flying_height", params.flying_height, kPositive);
   config.read("fence_radius", params.fence_radius, kNotNegative);
   config.read("fence_height", params.fence_height, kNotNegative);
   config.read("braking_acceleration", params.braking.acceleration, {0.5, 10.0});
@@ -49,12 +48,6 @@ class Guard : public Component {
       surroundings_.hear(scan);
       look_around();
     });
-    subscribe(
-        topic::range_down,
-        [this](const sensor_msgs::msg::Range& range) {
-          guard_.set_range_down(range.range(), from_msg(range.header().stamp()));
-        },
-        Need::kOptional);
     subscribe(topic::vehicle_status, [this](const swiftlet_msgs::msg::VehicleStatus& status) {
       if (status.armed()) guard_.set_home(from_msg(status.takeoff_point()));
     });

@@ -125,6 +125,10 @@ class LidarMapper : public Component {
     while (!waiting_.empty()) {
       const bool known = !poses_.empty() && stamp(waiting_.front()) <= poses_.newest();
       if (!known && !goes_alone()) return;
+      const bool was_alone = std::exchange(alone_, !known);
+      if (alone_ && !was_alone && !poses_.empty()) {
+        log()->warn("odometry fell silent: poses are found without it");
+      }
       // Odometry of the scanner itself, as in logs of ground robots, needs no mounting.
       const std::string& frame = waiting_.front().header().frame_id();
       const auto mount = mounts_.find(poses_.empty() ? frame : odometry_frame_, frame);
@@ -194,7 +198,7 @@ class LidarMapper : public Component {
     const auto pose = locator_->locate(scan, poses_, mount);
     if (locator_->lost() && is_worth_a_line(++lost_)) {
       log()->warn("a scan looks like nothing that is known; {} ({} so far)",
-                  poses_.empty() ? "the last pose is kept" : "odometry is followed", lost_);
+                  alone_ ? "the last pose is kept" : "odometry is followed", lost_);
     }
     const bool located = locator_->slam().located();
     if (located != was_located) {
@@ -215,6 +219,7 @@ class LidarMapper : public Component {
   std::uint64_t dropped_ = 0;  // scans without a pose, or without a place on the body
   std::uint64_t refused_ = 0;  // scans that the grid cannot take
   std::uint64_t lost_ = 0;     // scans that could not be matched
+  bool alone_ = false;         // scans go in without odometry
   bool changed_ = false;
   bool path_changed_ = false;
   bool adopted_ = false;  // another instance's map

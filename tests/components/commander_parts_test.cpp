@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "components/commander/answered_commands.hpp"
 #include "components/commander/attendance.hpp"
@@ -101,6 +102,8 @@ TEST(AuthorityDesk, OfTwoWhoMaySteerTheOneThatMovesHisSticksDoes) {
   EXPECT_TRUE(steers("base", 0.0f)) << "it was switched off";
   EXPECT_FALSE(steers("tablet", 0.5f)) << "who has no control does not, and keeps nobody from it";
   EXPECT_TRUE(steers("base", 0.0f));
+  EXPECT_FALSE(steers("", 0.004f)) << "a joystick that is plugged in and lies there";
+  EXPECT_FALSE(steers("", std::numeric_limits<float>::quiet_NaN()));
 }
 
 TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
@@ -126,6 +129,19 @@ TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
   EXPECT_EQ(heard("tablet", Time(102s), false), Link::kOfOthers);
   EXPECT_EQ(heard("base", Time(102s), false), Link::kLeft);
   EXPECT_EQ(heard("tablet", Time(133s)), Link::kHeard) << "base has been away for too long";
+
+  ASSERT_TRUE(desk.admit("base", Time(140s)).ok());
+  EXPECT_EQ(heard("base", Time(140s)), Link::kHeard);
+  swiftlet_msgs::msg::ModeCommand give;
+  give.command(swiftlet_msgs::msg::ModeCommand_Constants::CONTROL_GIVE);
+  give.station("base");
+  give.successor("tablet");
+  ASSERT_TRUE(desk.carry_out(give, Time(141s))->ok());
+  EXPECT_FALSE(desk.link_is_of_others(Time(141s)));
+  EXPECT_EQ(heard("base", Time(142s)), Link::kHeard) << "until who was given control is there";
+  ASSERT_TRUE(desk.admit("tablet", Time(143s)).ok());
+  EXPECT_TRUE(desk.link_is_of_others(Time(143s))) << "it commands by verbs";
+  EXPECT_EQ(heard("base", Time(144s)), Link::kOfOthers);
 }
 
 TEST(AuthorityDesk, WhatIsAboutControlIsCarriedOutByItAlone) {
@@ -212,9 +228,13 @@ TEST(Attendance, ProblemsThatOthersReportKeepFromArming) {
 
 TEST(Attendance, WhoLeftLongAgoIsMissedInFlightAlone) {
   Attendance attendance;
+  attendance.heard_status(status("explorer", "b", true, 1), Time(5s));
   attendance.heard_status(status("planner", "a", true, 1), Time(10s));
-  EXPECT_EQ(attendance.problem(Time(25s)), "");
-  EXPECT_THAT(attendance.problem(Time(25s), true), HasSubstr("planner: silent for 15.0 s"));
+  attendance.forget_who_left(Time(17s));  // and takes off
+  EXPECT_THAT(attendance.problem(Time(17s)), HasSubstr("planner: silent for 7.0 s"));
+  EXPECT_THAT(attendance.problem(Time(25s)), HasSubstr("planner: silent for 15.0 s"));
+  attendance.forget_who_left(Time(30s));  // on the ground again
+  EXPECT_EQ(attendance.problem(Time(30s)), "");
 }
 
 TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {
@@ -260,13 +280,6 @@ TEST(Attendance, WhoWasStartedAgainCountsWhateverTheDeadOneWas) {
     EXPECT_EQ(attendance.failure("flight_controller", Time(12s)), "") << reborn;
     EXPECT_EQ(attendance.problem(Time(12s)), "") << reborn;
   }
-}
-
-TEST(Attendance, WhoLeftLongAgoIsForgotten) {
-  Attendance attendance;
-  attendance.heard_status(status("planner", "a", true, 1), Time(10s));
-  EXPECT_THAT(attendance.problem(Time(12s)), HasSubstr("planner: silent for 2.0 s"));
-  EXPECT_EQ(attendance.problem(Time(21s)), "");
 }
 
 FlightDirector::State some_state() {

@@ -162,45 +162,6 @@ TEST(FlightGuard, KeepsWithinTheFenceAndLetsComeBack) {
   EXPECT_LE(flight.vehicle.p_WB.z(), 3.0);
 }
 
-TEST(FlightGuard, NoMotorIsTurnedOffInTheAir) {
-  FlightSetpoint off{Time{}, SetpointKind::kMotorsOff, {}};
-  const auto answer = [&off](GuardedFlight& flight, double range, Duration later = kTick) {
-    flight.guard.set_range_down(range, flight.now);
-    off.time = flight.now + later;
-    return flight.guard.check(off);
-  };
-  for (const double range : {0.6, 1.2, std::numeric_limits<double>::infinity()}) {
-    GuardedFlight flight;
-    flight.vehicle.p_WB.z() = 1.2;
-    flight.asked.position.z() = 1.2;
-    EXPECT_FALSE(flight.tick());
-    const auto held = answer(flight, range);
-    ASSERT_TRUE(held) << range;
-    EXPECT_EQ(held->kind, SetpointKind::kTrack);
-    EXPECT_NEAR(held->reference.position.z(), 1.2, 0.01);
-    EXPECT_THAT(flight.guard.reason(), HasSubstr("turns the motors off"));
-    EXPECT_TRUE(answer(flight, range)) << "however often it is said";
-  }
-  GuardedFlight landed;
-  EXPECT_FALSE(landed.tick());
-  EXPECT_FALSE(answer(landed, 0.08)) << "on the ground that is how a flight ends";
-  EXPECT_FALSE(landed.guard.acting());
-
-  GuardedFlight on_its_back;
-  on_its_back.vehicle.q_WB = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-  EXPECT_FALSE(on_its_back.tick());
-  EXPECT_FALSE(answer(on_its_back, 2.5)) << "it sees the ceiling";
-
-  GuardedFlight unseen;
-  EXPECT_FALSE(unseen.tick());
-  EXPECT_FALSE(answer(unseen, kNan)) << "a sonar that says nothing";
-
-  GuardedFlight abandoned;
-  EXPECT_FALSE(abandoned.tick());
-  EXPECT_FALSE(answer(abandoned, 1.2, std::chrono::seconds(1)))
-      << "said by a commander that has begun anew: the flight loop lands by itself";
-}
-
 TEST(FlightGuard, SaysNothingWhereNothingIsTracked) {
   GuardedFlight flight;
   FlatReference far;

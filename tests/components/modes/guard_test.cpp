@@ -128,44 +128,5 @@ TEST(GuardFlight, WhoFliesByHandAtAWallIsStoppedAtItAndMayGoAway) {
   EXPECT_GT(pilot.clearance, 0.0);
 }
 
-TEST(GuardFlight, ACommanderThatTurnsTheMotorsOffInTheAirIsNotObeyed) {
-  ModeFlight flight;
-  ScriptedPilot& pilot = flight.pilot();
-  auto setpoint = pilot.advertise(topic::setpoint);
-  bool is_mad = false;
-  Eigen::Vector3d place;
-  double farthest = 0.0;
-  pilot.every(10ms, [&](Time now) {
-    if (!is_mad) return;
-    Setpoint off;
-    off.header(make_header(now, frame::kMap));
-    off.kind(kind::MOTORS_OFF);
-    setpoint.publish(off);
-  });
-  flight.take_off();
-  flight.wait(1.0);
-  flight.check([&] {
-    place = pilot.truth;
-    flight.kill("commander");
-    is_mad = true;
-  });
-  flight.add({"madness",
-              [] {},
-              [&] {
-                farthest = std::max(farthest, (pilot.truth - place).norm());
-                return pilot.step_s > 3.0;
-              },
-              5.0,
-              {}});
-  flight.check([&] {
-    EXPECT_TRUE(pilot.guard_acting);
-    EXPECT_THAT(pilot.guard_reason, HasSubstr("turns the motors off"));
-    EXPECT_LT(farthest, 0.25);
-    is_mad = false;
-  });
-  flight.add({"down", [] {}, [&] { return pilot.on_ground; }, 30.0, {}});
-  flight.fly();
-}
-
 }  // namespace
 }  // namespace swiftlet::test

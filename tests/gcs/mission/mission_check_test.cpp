@@ -231,6 +231,7 @@ TEST(MissionCheck, WaypointsKeepClearOfObstacles) {
 TEST(MissionCheck, AStraightLegDoesNotGoThroughAWall) {
   const OccupancyGrid grid = room();
   MissionCheckParams params = params_with_origin();
+  params.clearance = 0.25;
   params.map = &grid;
   params.takeoff = {2, 2, 0};
   EXPECT_THAT(
