@@ -177,6 +177,8 @@ class FlightDirector {
   void set_link_heard(Time time) { link_heard_ = time; }
   /// It said that it leaves: it is not missed.
   void set_link_left() { link_heard_.reset(); }
+  /// Who fell silent before a flight is not missed in it: to be called on the ground.
+  void forget_lost_link(Time now);
   /// What the guard says, heard at `time`: whether it flies instead of us, and why.
   void set_guard(bool acting, const std::string& reason, Time time);
   /// That the flight controller is alive, heard at `time`.

@@ -65,14 +65,17 @@ std::string FlightDirector::plan_leaves_fence(const Trajectory& plan) const {
   return "";
 }
 
+void FlightDirector::forget_lost_link(Time now) {
+  if (link_heard_ && to_seconds(now - *link_heard_) > params_.link_timeout) link_heard_.reset();
+}
+
 /// What the policies ask for now: each once, until what it is about is over, so that a pilot who
 /// wants something else has the last word.
 void FlightDirector::heed_policies(Time now, Situation& situation) {
   const double silence = link_heard_ ? to_seconds(now - *link_heard_) : 0.0;
   if (machine_.mode() == Mode::kGrounded) {
     flying_.demanded = 0;
-    // Who went away before the flight is not missed in it.
-    if (silence > params_.link_timeout) link_heard_.reset();
+    forget_lost_link(now);
     return;
   }
   struct Policy {

@@ -19,6 +19,8 @@ namespace {
 constexpr double kReaction = 0.05;
 /// A last setpoint that is older is no beginning for a brake [s].
 constexpr double kRecent = 0.05;
+/// A vehicle that hovers is not faster [m/s].
+constexpr double kDrift = 0.1;
 constexpr int kBrakeSamples = 16;
 
 bool is_finite(const FlatReference& r) {
@@ -93,20 +95,24 @@ std::optional<FlightReference> FlightGuard::brake_from_now(const FlightSetpoint&
   return brake.ok() ? std::optional<FlightReference>(*brake) : std::nullopt;
 }
 
-/// Whether it ends outside of the fence, and the setpoint leads farther out.
+/// Whether it ends outside of the fence, and the setpoint or the vehicle leads farther out.
 std::string FlightGuard::breach(const FlightSetpoint& setpoint,
                                 const FlightReference& brake) const {
   if (!home_) return "";
-  const Eigen::Vector3d from_home = setpoint.reference.position - *home_;
+  const Eigen::Vector3d place = setpoint.reference.position - *home_;
   const Eigen::Vector3d& velocity = setpoint.reference.velocity;
   const Eigen::Vector3d end = brake.at(brake.end()).position - *home_;
-  const double beyond = end.head<2>().norm() - params_.fence_radius;
-  const double above = end.z() - params_.fence_height;
-  if (params_.fence_radius > 0.0 && beyond > 0.0 &&
-      from_home.head<2>().dot(velocity.head<2>()) > 0.0) {
+  const double radius = params_.fence_radius, height = params_.fence_height;
+  const Eigen::Vector2d out = place.head<2>().normalized();
+  const bool goes_out =
+      velocity.head<2>().dot(out) > 0.0 ||
+      (place.head<2>().norm() > radius && state_->v_WB_W.head<2>().dot(out) > kDrift);
+  if (const double beyond = end.head<2>().norm() - radius;
+      radius > 0.0 && beyond > 0.0 && goes_out) {
     return fmt::format("a stop now would end {:.2f} m outside of the fence", beyond);
   }
-  if (params_.fence_height > 0.0 && above > 0.0 && velocity.z() > 0.0) {
+  const bool goes_up = velocity.z() > 0.0 || (place.z() > height && state_->v_WB_W.z() > kDrift);
+  if (const double above = end.z() - height; height > 0.0 && above > 0.0 && goes_up) {
     return fmt::format("a stop now would end {:.2f} m above the fence", above);
   }
   return "";

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 
 namespace swiftlet {
@@ -33,6 +32,7 @@ bool silent(const swiftlet_msgs::msg::ComponentStatus& status, double age, doubl
 void Attendance::heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Time now) {
   Instance& instance = components_[sign.component_name()][sign.instance()];
   instance.heard = now;
+  instance.forgotten = false;
   instance.status.period(sign.period());
   instance.status.active(sign.active());
   instance.status.term(sign.term());
@@ -41,7 +41,7 @@ void Attendance::heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Ti
 void Attendance::heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now) {
   Instance& instance = components_[status.component_name()][status.instance()];
   const Time since = instance.blocked_since.value_or(now);
-  instance = {status, now, status.blocked() ? std::optional(since) : std::nullopt};
+  instance = {status, now, status.blocked() ? std::optional(since) : std::nullopt, false};
 }
 
 const Attendance::Instance* Attendance::leader(const Instances& instances, Time now) {
@@ -61,9 +61,8 @@ const Attendance::Instance* Attendance::leader(const Instances& instances, Time 
 
 void Attendance::forget_who_left(Time now) {
   for (auto& [component, instances] : components_) {
-    for (auto instance = instances.begin(); instance != instances.end();) {
-      const bool left = to_seconds(now - instance->second.heard) > kGone;
-      instance = left ? instances.erase(instance) : std::next(instance);
+    for (auto& [identity, instance] : instances) {
+      if (to_seconds(now - instance.heard) > kGone) instance.forgotten = true;
     }
   }
 }
@@ -71,7 +70,7 @@ void Attendance::forget_who_left(Time now) {
 std::string Attendance::problem(Time now) const {
   for (const auto& [component, instances] : components_) {
     const Instance* active = leader(instances, now);
-    if (active == nullptr) continue;
+    if (active == nullptr || active->forgotten) continue;
     const double age = to_seconds(now - active->heard);
     if (age > kSilentStatus) {
       return fmt::format("{}: silent for {:.1f} s; does its process live?", component, age);

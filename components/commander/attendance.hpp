@@ -19,8 +19,8 @@ class Attendance {
   void heard_alive(const swiftlet_msgs::msg::ComponentStatus& sign, Time now);
   void heard_status(const swiftlet_msgs::msg::ComponentStatus& status, Time now);
 
-  /// Those that were not heard for long are not missed any more: to be called where nothing is
-  /// flown by them.
+  /// Those that were not heard for long are no problem any more, until they are heard again: to be
+  /// called on the ground.
   void forget_who_left(Time now);
 
   /// What keeps any component from working, or that one fell silent: "estimator: phone/pose: nobody
@@ -52,6 +52,7 @@ class Attendance {
     swiftlet_msgs::msg::ComponentStatus status;  // with the problems that were reported last
     Time heard{};
     std::optional<Time> blocked_since;
+    bool forgotten = false;
   };
   using Instances = std::map<std::string, Instance>;
   /// The active one; of several that live the one that took over last, else the one heard last.

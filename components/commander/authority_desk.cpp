@@ -18,13 +18,6 @@ using namespace std::chrono_literals;
 /// Sticks come twenty times a second; who is silent for so long does not steer any more.
 constexpr Duration kSilentSticks = 150ms;
 
-/// Sticks that nobody touches tremble, and are not centred to the last bit.
-constexpr double kTouched = 0.05;
-
-bool is_moved(const swiftlet_msgs::msg::ManualControl& sticks) {
-  return from_msg(sticks).deflection() > kTouched;
-}
-
 }  // namespace
 
 Duration AuthorityDesk::read_lease(const Config& config) {
@@ -39,7 +32,7 @@ Status AuthorityDesk::admit(const std::string& station, Time now) {
 
 bool AuthorityDesk::admit_sticks(const swiftlet_msgs::msg::ManualControl& sticks, Time now) {
   const std::string& name = sticks.station();
-  const bool is_remote = name.empty(), moved = is_moved(sticks);
+  const bool is_remote = name.empty(), moved = from_msg(sticks).deflection() > dead_band_;
   if (!is_remote) {
     // Who touches nothing takes nothing.
     const bool asks = holder(now) == name || moved;

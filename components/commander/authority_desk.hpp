@@ -19,6 +19,8 @@ class AuthorityDesk {
   /// `control_lease` [s] of a commander's section. Throws ConfigError.
   static Duration read_lease(const Config& config);
   void set_lease(Duration lease) { authority_.set_lease(lease); }
+  /// Sticks that are out of their middle by no more are not moved [share of full deflection].
+  void set_dead_band(double dead_band) { dead_band_ = dead_band; }
 
   /// Whether a command of this station is to be carried out.
   Status admit(const std::string& station, Time now);
@@ -31,7 +33,8 @@ class AuthorityDesk {
   std::optional<Result<Acceptance>> carry_out(const swiftlet_msgs::msg::ModeCommand& command,
                                               Time now);
 
-  /// What a heartbeat says of the link to who has control, or to anybody where nobody has.
+  /// What a heartbeat says of the link to who has control, or to anybody where nobody has; who gave
+  /// it counts until the other is heard.
   enum class Link {
     kOfOthers,  ///< nothing: who only looks is no link, and who promises nothing is not missed
     kHeard,     ///< from now on it is missed where it falls silent
@@ -60,6 +63,7 @@ class AuthorityDesk {
   };
 
   CommandAuthority authority_;
+  double dead_band_ = 0.05;
   std::optional<Steering> steering_;
   std::string linked_;  // whose link was heard last
 };

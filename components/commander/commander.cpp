@@ -62,6 +62,7 @@ class Commander : public Component {
         authority_(AuthorityDesk::read_lease(parameters())),
         desk_(runner_params(params_)),
         limits_message_(make_limits(parameters(), params_, runner_params(params_))) {
+    authority_.set_dead_band(params_.steering.dead_band);
     setpoint_ = advertise(topic::setpoint);
     goal_ = advertise(topic::goal);
     status_ = advertise(topic::vehicle_status);
@@ -76,6 +77,7 @@ class Commander : public Component {
     subscribe_to_stations();
     subscribe_to_components();
     every(kTick, [this](Time now) {
+      forget(now);
       if (active()) tick(now);
     });
     set_changeable_parameters(
@@ -219,6 +221,7 @@ class Commander : public Component {
     director_.set_params(params);
     desk_.set_params(runner_params(params));
     authority_.set_lease(lease);
+    authority_.set_dead_band(params.steering.dead_band);
     params_ = params;
     limits_message_ = std::move(limits);
     if (active()) publish_limits(now());
@@ -338,6 +341,15 @@ class Commander : public Component {
     publish_status(now());
   }
 
+  /// Who is not to be missed; by a standby neither.
+  void forget(Time now) {
+    if (!is_in_flight()) {
+      attendance_.forget_who_left(now);
+      director_.forget_lost_link(now);
+    }
+    if (authority_.link_is_of_others(now)) director_.set_link_left();
+  }
+
   void tick(Time now) {
     check_others(now);
     tell_control(now);
@@ -383,7 +395,6 @@ class Commander : public Component {
   }
 
   void tell_control(Time now) {
-    if (authority_.link_is_of_others(now)) director_.set_link_left();
     const std::string& holder = authority_.holder(now);
     if (holder == last_holder_) return;
     log()->debug("control: {}", holder.empty() ? "no station" : "station '" + holder + "'");
@@ -393,7 +404,6 @@ class Commander : public Component {
   }
 
   void check_others(Time now) {
-    if (!is_in_flight()) attendance_.forget_who_left(now);
     if (ticks_ % kStatusEvery == 0) director_.set_system_problem(system_problem(now));
     director_.set_guidance_problem(attendance_.failure_of_any(kGuides, now));
   }

@@ -104,6 +104,8 @@ TEST(AuthorityDesk, OfTwoWhoMaySteerTheOneThatMovesHisSticksDoes) {
   EXPECT_TRUE(steers("base", 0.0f));
   EXPECT_FALSE(steers("", 0.004f)) << "a joystick that is plugged in and lies there";
   EXPECT_FALSE(steers("", std::numeric_limits<float>::quiet_NaN()));
+  desk.set_dead_band(0.15);
+  EXPECT_FALSE(steers("", 0.1f)) << "a worn one";
 }
 
 TEST(AuthorityDesk, OnlyWhoHasControlIsMissed) {
@@ -235,6 +237,10 @@ TEST(Attendance, WhoLeftLongAgoIsMissedInFlightAlone) {
   EXPECT_THAT(attendance.problem(Time(25s)), HasSubstr("planner: silent for 15.0 s"));
   attendance.forget_who_left(Time(30s));  // on the ground again
   EXPECT_EQ(attendance.problem(Time(30s)), "");
+  EXPECT_THAT(attendance.failure("planner", Time(30s)), HasSubstr("fell silent 20.00 s ago"))
+      << "what needs it is refused all the same";
+  attendance.heard_alive(status("planner", "a", true, 1), Time(31s));
+  EXPECT_THAT(attendance.problem(Time(34s)), HasSubstr("planner: silent for 3.0 s"));
 }
 
 TEST(Attendance, WhoIsBlockedForHalfASecondHasFailed) {

@@ -162,6 +162,31 @@ TEST(FlightGuard, KeepsWithinTheFenceAndLetsComeBack) {
   EXPECT_LE(flight.vehicle.p_WB.z(), 3.0);
 }
 
+TEST(FlightGuard, IsNotLuredOutOfTheFenceBySetpointsAtRest) {
+  FlightGuard::Params params;
+  params.fence_radius = 4.0;
+  GuardedFlight flight(params);
+  flight.guard.set_home({0.0, 0.0, 0.0});
+  // A vehicle that follows a place ahead of it.
+  Time now = flight.now;
+  Eigen::Vector3d place(0.0, 0.0, 1.2);
+  bool acted = false;
+  for (int k = 0; k < 2000 && !acted; ++k) {
+    now += kTick;
+    RigidBodyState vehicle;
+    vehicle.p_WB = place;
+    vehicle.v_WB_W = {0.5, 0.0, 0.0};
+    flight.guard.set_estimate(vehicle);
+    FlatReference lure;
+    lure.position = place + Eigen::Vector3d(0.9, 0.0, 0.0);
+    acted = flight.guard.check({now, SetpointKind::kTrack, lure}).has_value();
+    place += vehicle.v_WB_W * to_seconds(kTick);
+  }
+  ASSERT_TRUE(acted);
+  EXPECT_LT(place.x(), 4.0);
+  EXPECT_THAT(flight.guard.reason(), HasSubstr("outside of the fence"));
+}
+
 TEST(FlightGuard, SaysNothingWhereNothingIsTracked) {
   GuardedFlight flight;
   FlatReference far;
