@@ -126,13 +126,16 @@ std::string FlightDirector::not_ready_reason(Time now) const {
                        std::ceil(1e3 * heading_sigma_) / 1e3, params_.heading_sigma_to_arm);
   }
   if (const double left = params_.settling_to_arm - age(now, estimate_since_); left > 0.0) {
-    return fmt::format("the estimate settles for {:.1f} s more", left);
+    return fmt::format("the estimate settles for {:.1f} s more", std::max(left, 0.1));
   }
   if (age(now, motors_heard_) > kMotorsTimeout) {
     return "no motor commands were heard; is the flight_controller running?";
   }
   if (!range_down_) return "nothing was heard on range/down; is the sonar running?";
   if (machine_.mode() == Mode::kGrounded && !sonar_near_ground()) {
+    if (!std::isfinite(*range_down_)) {
+      return "the sonar hears no echo of the ground: set it down, or look at what it points to";
+    }
     return fmt::format("the ground is {:.2f} m below: set it down, or wait until it has landed",
                        *range_down_);
   }

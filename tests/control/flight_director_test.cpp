@@ -40,6 +40,8 @@ TEST(FlightDirectorReadiness, NamesWhatIsMissing) {
   EXPECT_THAT(refusal(), HasSubstr("nothing was heard on range/down"));
   director.set_range_down(0.5);
   EXPECT_THAT(refusal(), HasSubstr("the ground is 0.50 m below"));
+  director.set_range_down(std::numeric_limits<double>::infinity());
+  EXPECT_THAT(refusal(), HasSubstr("hears no echo of the ground"));
   director.set_range_down(0.15);
   director.set_battery(0.1);
   EXPECT_THAT(refusal(), HasSubstr("battery at 10 %, 30 % are needed"));
@@ -76,7 +78,9 @@ TEST(FlightDirectorReadiness, WaitsForAnEstimateThatHasSettledWithoutAGap) {
   wait(0.3, false);
   wait(settling - 0.1, true);
   EXPECT_THAT(director.status(now).reason, HasSubstr("settles for 0.1 s more"));
-  wait(0.2, true);
+  wait(0.08, true);
+  EXPECT_THAT(director.status(now).reason, HasSubstr("settles for 0.1 s more")) << "never 0.0";
+  wait(0.12, true);
   EXPECT_TRUE(director.request(Request::arm(), now).ok());
   // An armed vehicle waits, too.
   wait(0.3, false);
