@@ -32,7 +32,9 @@ Duration settle_time(const HostOptions& options) {
 Host::Host(const HostOptions& options)
     : options_(options),
       executor_(options.lockstep ? make_lockstep_executor(options.start) : make_live_executor()),
-      participant_(std::make_shared<Participant>(participant_options(options))) {
+      participant_(options.shared != nullptr
+                       ? options.shared
+                       : std::make_shared<Participant>(participant_options(options))) {
   faults_ = FaultPlan(options.faults, options.fault_seed, executor_->now());
   // In lockstep nobody else is there to see.
   if (!options.lockstep) emplace<NodeAnnouncer>("node_announcer");

@@ -18,6 +18,8 @@ struct HostOptions {
   int standby = 0;  ///< place of this process's components in the line of succession
   std::vector<Fault> faults;
   std::uint64_t fault_seed = 0;
+  /// Of a host before this one, with the same `participant`; null: the host makes its own.
+  std::shared_ptr<Participant> shared;
 };
 
 /// A process that hosts components: one participant, one executor, any number of components.

@@ -31,6 +31,12 @@ void GroundOptions::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
+GroundStation GroundOptions::enter() const {
+  GroundStation station{station_, host_options("gcs")};
+  station.host.shared = std::make_shared<Participant>(station.host.participant);
+  return station;
+}
+
 // Not CLI11's: all verbs have the option, and each that is not used would bring the variable back.
 std::string GroundOptions::own_name() {
   const char* told = std::getenv("SWIFTLET_STATION");

@@ -25,8 +25,10 @@ struct TransferProgress {
 /// When a transfer sends again, and when it gives up.
 struct TransferParams {
   Duration resend = std::chrono::milliseconds(800);  ///< without an answer
-  Duration patience = std::chrono::seconds(20);      ///< without any headway, then it has failed
-  std::size_t burst = 10;                            ///< parts that are sent at once
+  /// Without any headway, then it has failed: an outage of ten seconds at any moment leaves as much
+  /// as it takes to find each other over a bad link.
+  Duration patience = std::chrono::seconds(30);
+  std::size_t burst = 10;  ///< parts that are sent at once
 };
 
 /// Fetches the vehicle's mission over a link that loses, delays, repeats and reorders. Ended with a

@@ -16,21 +16,21 @@
 namespace swiftlet {
 namespace {
 
-CommandOutcome until_accepted(const GroundOptions& network, const GroundCommand& command,
+CommandOutcome until_accepted(const GroundStation& station, const GroundCommand& command,
                               Duration patience, std::string& id) {
-  Host host(network.host_options("gcs"));
-  const auto& client = host.emplace<CommandClient>("gcs", network.station(), command, patience);
+  Host host(station.host);
+  const auto& client = host.emplace<CommandClient>("gcs", station.name, command, patience);
   host.run();
   id = client.command_id();
   return client.outcome();
 }
 
 /// It keeps control meanwhile, and is not missed: a script may be interrupted.
-CommandOutcome until_done(const GroundOptions& network, const GroundCommand& command,
+CommandOutcome until_done(const GroundStation& station, const GroundCommand& command,
                           const std::string& id) {
   Terminal terminal;
-  Host host(network.host_options("gcs"));
-  host.emplace<Heartbeat>("heartbeat", network.station(), Heartbeat::Absence::kIsNot);
+  Host host(station.host);
+  host.emplace<Heartbeat>("heartbeat", station.name, Heartbeat::Absence::kIsNot);
   const auto& client = host.emplace<WaitClient>("gcs", command, id, terminal);
   host.run();
   terminal.clear();
@@ -52,11 +52,11 @@ void CommandOptions::add_to(CLI::App& verb) {
   add_answer_patience(verb, patience_);
 }
 
-void CommandOptions::send(const GroundOptions& network, const GroundCommand& command) const {
+void CommandOptions::send(const GroundStation& station, const GroundCommand& command) const {
   std::string id;
-  CommandOutcome outcome = until_accepted(network, command, from_seconds(patience_), id);
+  CommandOutcome outcome = until_accepted(station, command, from_seconds(patience_), id);
   const bool accepted = outcome.accepted;
-  if (accepted && wait_) outcome = until_done(network, command, id);
+  if (accepted && wait_) outcome = until_done(station, command, id);
   if (outcome.text.empty()) {
     outcome.text =
         command.name + (accepted ? ": interrupted; the vehicle goes on with it" : ": interrupted");

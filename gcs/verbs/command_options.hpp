@@ -16,7 +16,10 @@ class CommandOptions {
   void add_to(CLI::App& verb);
   /// Sends the command, and with `--wait` stays until it is done; says how it went. Throws
   /// CLI::RuntimeError(1) where it was refused, was not answered or has failed.
-  void send(const GroundOptions& network, const GroundCommand& command) const;
+  void send(const GroundStation& station, const GroundCommand& command) const;
+  void send(const GroundOptions& network, const GroundCommand& command) const {
+    send(network.enter(), command);
+  }
   bool json() const { return json_; }
   double patience() const { return patience_; }  ///< for the vehicle's answer [s]
 

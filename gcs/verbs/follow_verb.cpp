@@ -13,9 +13,6 @@
 namespace swiftlet {
 namespace {
 
-/// A transfer may take long without anything being wrong [s].
-constexpr double kTransferPatience = 20.0;
-
 struct Options {
   std::string file;
   CommandOptions command;
@@ -23,14 +20,17 @@ struct Options {
 
 void follow(const GroundOptions& network, const Options& options) {
   const double patience = std::max(kTransferPatience, options.command.patience());
-  MissionInbox::Items items = flyable_items(network, mission_of_file(options.file), options.file,
-                                            {MissionBegin::kNow, patience, nullptr});
-  send_mission(network, std::move(items), patience);
+  const MissionFile mission = mission_of_file(options.file);
+  refuse_unflyable(mission, options.file);
+  const GroundStation station = network.enter();
+  MissionInbox::Items items =
+      flyable_items(station, mission, options.file, {MissionBegin::kNow, patience, nullptr});
+  send_mission(station, std::move(items), patience);
   GroundCommand start;
   start.name = "follow";
   start.command = swiftlet_msgs::msg::ModeCommand_Constants::MISSION_START;
   start.item = 1;  // it is a new one, and there is no place in it to go on from
-  options.command.send(network, start);
+  options.command.send(station, start);
 }
 
 }  // namespace

@@ -64,14 +64,16 @@ bool begins_with_takeoff(const MissionFile& mission) {
   return false;
 }
 
-Outlook look_out(const NetworkOptions& network, const MissionFile& mission,
-                 const UploadPlan& plan) {
+Outlook look_out(const GroundStation& station, const MissionFile& mission, const UploadPlan& plan) {
   const bool on_earth =
       std::any_of(mission.items.begin(), mission.items.end(),
                   [](const WrittenItem& written) { return written.item.global.has_value(); });
-  Host host(network.host_options("gcs"));
+  Host host(station.host);
   const auto& client = host.emplace<OutlookClient>("gcs", from_seconds(plan.patience), on_earth);
+  Terminal terminal;
+  terminal.show("looking for the vehicle");
   host.run();
+  terminal.clear();
   if (!client.circumstances()) end_verb(kExitFailed, "interrupted; " + std::string(kNotSent));
   if (!client.is_heard()) end_verb(kExitFailed, nobody_answers(host.domain()));
   const screen::Circumstances& seen = *client.circumstances();
@@ -95,10 +97,10 @@ Outlook look_out(const NetworkOptions& network, const MissionFile& mission,
   return outlook;
 }
 
-MissionCheck check(const MissionFile& mission, const UploadPlan& plan,
+MissionCheck check(const MissionFile& mission, const MissionFile* in_place_of,
                    const MissionCheckParams& params) {
-  return plan.in_place_of == nullptr ? check_mission(mission, params)
-                                     : check_change(*plan.in_place_of, mission, params);
+  return in_place_of == nullptr ? check_mission(mission, params)
+                                : check_change(*in_place_of, mission, params);
 }
 
 }  // namespace
@@ -118,15 +120,17 @@ MissionFile mission_of_file(const std::string& file) {
   return std::move(*mission);
 }
 
-MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFile& mission,
-                                  const std::string& name, const UploadPlan& plan) {
-  // What cannot be flown anywhere needs no vehicle to be asked.
+void refuse_unflyable(const MissionFile& mission, const std::string& name,
+                      const MissionFile* in_place_of) {
   MissionCheckParams anywhere;
   anywhere.on_ground = false;
-  refuse_errors(check(mission, plan, anywhere), name, kExitUnusable);
+  refuse_errors(check(mission, in_place_of, anywhere), name, kExitUnusable);
+}
 
-  Outlook outlook = look_out(network, mission, plan);
-  const MissionCheck found = check(mission, plan, outlook.params);
+MissionInbox::Items flyable_items(const GroundStation& station, const MissionFile& mission,
+                                  const std::string& name, const UploadPlan& plan) {
+  Outlook outlook = look_out(station, mission, plan);
+  const MissionCheck found = check(mission, plan.in_place_of, outlook.params);
   for (const MissionFinding& finding : found.findings) {
     fmt::print(stderr, "{}\n", describe(finding, name));
   }
@@ -140,13 +144,13 @@ MissionInbox::Items flyable_items(const NetworkOptions& network, const MissionFi
   return items;
 }
 
-void send_mission(const GroundOptions& network, MissionInbox::Items items, double patience_s) {
+void send_mission(const GroundStation& station, MissionInbox::Items items, double patience_s) {
   Terminal terminal;
-  Host host(network.host_options("gcs"));
+  Host host(station.host);
   const Time now(std::chrono::system_clock::now().time_since_epoch());
   const std::string id = fmt::format("gcs-{}-{}", getpid(), now.time_since_epoch().count());
   const auto& client =
-      host.emplace<UploadClient>("gcs", network.station(), id, std::move(items),
+      host.emplace<UploadClient>("gcs", station.name, id, std::move(items),
                                  with_patience(patience_s), on_terminal(terminal, "upload"));
   const int code = host.run();
   terminal.clear();
@@ -157,9 +161,9 @@ void send_mission(const GroundOptions& network, MissionInbox::Items items, doubl
                             : reason);
 }
 
-MissionFile fetch_mission(const NetworkOptions& network, double patience_s) {
+MissionFile fetch_mission(const GroundStation& station, double patience_s) {
   Terminal terminal;
-  Host host(network.host_options("gcs"));
+  Host host(station.host);
   const auto& client = host.emplace<DownloadClient>("gcs", with_patience(patience_s),
                                                     on_terminal(terminal, "download"));
   host.run();

@@ -28,10 +28,12 @@ using Network = std::shared_ptr<GroundOptions>;
 
 void upload(const GroundOptions& network, const std::string& file, MissionBegin begin,
             double patience) {
-  MissionInbox::Items items =
-      flyable_items(network, mission_of_file(file), file, {begin, patience, nullptr});
+  const MissionFile mission = mission_of_file(file);
+  refuse_unflyable(mission, file);
+  const GroundStation station = network.enter();
+  MissionInbox::Items items = flyable_items(station, mission, file, {begin, patience, nullptr});
   const std::size_t count = items.size();
-  send_mission(network, std::move(items), patience);
+  send_mission(station, std::move(items), patience);
   fmt::print("upload: {} items, read back\n", count);
 }
 
@@ -42,7 +44,7 @@ void download(const GroundOptions& network, const std::string& file, double pati
   if (const Status place = check_writable(file); !place.ok()) {
     end_verb(kExitUnusable, place.error().reason);
   }
-  const MissionFile mission = fetch_mission(network, patience);
+  const MissionFile mission = fetch_mission(network.enter(), patience);
   if (mission.items.empty()) end_verb(kExitFailed, "the vehicle has no mission");
   const auto written = write_mission(file, mission);
   if (!written.ok()) end_verb(kExitFailed, written.error().reason);
@@ -77,7 +79,7 @@ void show_state(const GroundOptions& network, bool as_json) {
 void add_transfers(CLI::App& mission, const Network& network) {
   struct Options {
     std::string file;
-    double patience = 20.0;
+    double patience = kTransferPatience;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* up = mission.add_subcommand(

@@ -27,7 +27,7 @@ struct Options {
   std::optional<std::size_t> at;
   std::size_t number = 0;
   bool json = false;
-  double patience = 20.0;
+  double patience = kTransferPatience;
 };
 
 MissionItem waypoint_of(const Options& options) {
@@ -54,8 +54,9 @@ void print(const MissionFile& mission, bool json) {
 
 /// Fetches the mission, changes it, and brings it back as a whole.
 template <class Edit>
-void edit(const GroundOptions& network, const Options& options, Edit change) {
-  const MissionFile before = fetch_mission(network, options.patience);
+MissionFile changed_mission(const GroundOptions& network, const Options& options, Edit change) {
+  const GroundStation station = network.enter();
+  const MissionFile before = fetch_mission(station, options.patience);
   std::vector<MissionItem> items = items_of(before);
   const Status changed = change(items);
   if (!changed.ok()) end_verb(kExitUnusable, changed.error().reason);
@@ -66,9 +67,16 @@ void edit(const GroundOptions& network, const Options& options, Edit change) {
   }
   MissionFile mission;
   for (MissionItem& item : items) mission.items.push_back({std::move(item), 0});
+  const char* name = "the mission";
+  refuse_unflyable(mission, name, &before);
   const UploadPlan plan{MissionBegin::kLater, options.patience, &before};
-  send_mission(network, flyable_items(network, mission, "the mission", plan), options.patience);
-  print(mission, options.json);
+  send_mission(station, flyable_items(station, mission, name, plan), options.patience);
+  return mission;
+}
+
+template <class Edit>
+void edit(const GroundOptions& network, const Options& options, Edit change) {
+  print(changed_mission(network, options, change), options.json);
 }
 
 void add(const GroundOptions& network, const Options& options) {
@@ -91,7 +99,8 @@ void remove(const GroundOptions& network, const Options& options) {
 }
 
 void list(const GroundOptions& network, const Options& options) {
-  print(fetch_mission(network, options.patience), options.json);
+  const MissionFile mission = fetch_mission(network.enter(), options.patience);
+  print(mission, options.json);
 }
 
 struct Verb {

@@ -11,6 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class GroundStationAlone : public SystemTest, public testing::WithParamInterface<std::string> {};
 
@@ -44,6 +45,24 @@ INSTANTIATE_TEST_SUITE_P(EachVerb, GroundStationAlone,
                          testing::Values("arm", "disarm", "takeoff", "takeoff 1.5", "goto 2 4",
                                          "goto 2 4 1", "hover", "land", "status", "status --json",
                                          "mode", "mode --json", "mode hover", "log --for 1.5"),
+                         name_of_verb);
+
+class BadMission : public SystemTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(BadMission, ThatNobodyCouldFlyNeedsNoNetworkToBeRefused) {
+  const std::string file = write("bad.yaml",
+                                 "items:\n  - takeoff: 1.2\n  - land\n"
+                                 "  - goto: {x: 1, y: 1, z: 1.2}\n");
+  Arguments arguments = words(GetParam());
+  arguments.insert(arguments.begin(), "gcs");
+  arguments.insert(arguments.end(), {file, "--network", "nothing0"});
+  const Finished finished = run(arguments);
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr(file + ":4: item 3: error: it stands behind the landing"));
+  EXPECT_THAT(finished.err, Not(HasSubstr("nothing0")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sent, BadMission, testing::Values("mission upload", "follow"),
                          name_of_verb);
 
 }  // namespace

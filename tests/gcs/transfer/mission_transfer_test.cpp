@@ -153,7 +153,9 @@ TEST(MissionTransfer, ABadLinkBringsTheWholeMissionOrNothing) {
       far.desk.hear(part, far.director, far.now);
     }
     const auto items = random_mission(far.random, 200);
-    MissionUpload upload("new", items, far.now, {});
+    TransferParams params;
+    params.patience = 20s;  // they have met already
+    MissionUpload upload("new", items, far.now, params);
     std::size_t wrong = 0;
     while (far.now < Time(220s) && upload.progress().state == State::kRunning) {
       far.step(&upload, nullptr);
@@ -175,7 +177,7 @@ TEST(MissionTransfer, WithoutAnswersItGivesUpAndSaysWhatIsNotKnown) {
   const TransferProgress progress = deaf.run(upload, 60s);
   EXPECT_EQ(progress.state, State::kFailed);
   EXPECT_THAT(progress.reason, HasSubstr("no vehicle says what mission it has"));
-  EXPECT_NEAR(to_seconds(deaf.now - Time(100s)), 20.0, 0.2);
+  EXPECT_NEAR(to_seconds(deaf.now - Time(100s)), to_seconds(TransferParams().patience), 0.2);
 
   // One whose commander hears nothing of it.
   LinkParams good;
