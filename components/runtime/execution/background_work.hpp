@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "components/runtime/execution/executor.hpp"
@@ -21,7 +23,8 @@ namespace swiftlet {
 ///                                             [this](Poses poses) { apply(poses); });
 ///
 /// What the work needs is handed to it by value; nothing else is safe there. It has ordinary
-/// scheduling in a real-time process, too. The work's exceptions are the component's.
+/// scheduling in a real-time process, too, and no callback waits for its thread to end: a result is
+/// posted when all that the work had is given back. The work's exceptions are the component's.
 class BackgroundWork : private Task {
  public:
   BackgroundWork(Mailbox& mailbox, const Executor& executor)
@@ -47,12 +50,18 @@ class BackgroundWork : private Task {
  private:
   void begin(std::function<void()> work, std::function<void()> finish);
   void run() override;
+  void serve();
+  void perform(std::function<void()> work);
 
   Mailbox& mailbox_;
   bool at_once_;
-  std::thread thread_;
   std::function<void()> finish_;
   std::exception_ptr error_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> next_;
+  bool ends_ = false;
+  std::thread thread_;  // from the first work on
 };
 
 }  // namespace swiftlet

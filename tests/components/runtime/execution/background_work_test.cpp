@@ -119,6 +119,49 @@ TEST(BackgroundWork, InLockstepResultsComeAtTheSameTimeInEveryRun) {
   }
 }
 
+/// Work leaves something in its thread that lasts until its result has been taken in.
+struct Lingering : Component {
+  explicit Lingering(const ComponentContext& context) : Component(context) {
+    every(1ms, [this](Time) {
+      if (started_) return;
+      started_ = true;
+      auto handed_over = std::make_shared<int>(1);
+      handed_over_ = handed_over;
+      work_.start(
+          [this, handed_over = std::move(handed_over)] {
+            static thread_local AtThreadEnd lingers;
+            lingers.wait_for = &taken_in_;
+            return *handed_over;
+          },
+          [this](int) {
+            given_back = handed_over_.expired();
+            taken_in_.open();
+            stop(0);
+          });
+    });
+  }
+  static inline bool waited_in_vain = false;
+  bool given_back = false;
+
+ private:
+  struct AtThreadEnd {
+    Latch* wait_for = nullptr;
+    ~AtThreadEnd() { waited_in_vain = !wait_for->wait(); }
+  };
+  bool started_ = false;
+  std::weak_ptr<int> handed_over_;
+  Latch taken_in_;
+  BackgroundWork work_{mailbox(), *context().executor};
+};
+
+TEST(BackgroundWork, ResultsWaitForWhatWasHandedOverButNotForTheThread) {
+  Host host(options(false));
+  auto& lingering = host.emplace<Lingering>("lingering");
+  EXPECT_EQ(host.run(), 0);
+  EXPECT_TRUE(lingering.given_back);
+  EXPECT_FALSE(Lingering::waited_in_vain) << "a callback joined the thread";
+}
+
 struct Breaking : Component {
   explicit Breaking(const ComponentContext& context) : Component(context) {
     every(1ms, [this](Time) {
