@@ -74,7 +74,7 @@ bench-chain: build
 
 bench-slam: build
 	@cmake --build --preset release --parallel $(JOBS) --target slam_live_bench
-	@echo "== bench: scan to pose while loops are closed (a minute and a half)"
+	@echo "== bench: scan to pose while loops are closed (three minutes)"
 	@build/release/slam_live_bench
 
 bench-screen: build
