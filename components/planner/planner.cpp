@@ -24,6 +24,7 @@ constexpr Duration kAlivePeriod = 100ms;  // no plan takes longer
 constexpr Duration kCorruptMapTimeout = 500ms;
 /// A setpoint is so far from a trajectory that is flown at most: it is a little older [m].
 constexpr double kFlownGap = 0.1;
+constexpr double kLargestClearance = 10.0;  // [m]
 
 namespace answers = swiftlet_msgs::msg::Trajectory_Constants;
 
@@ -52,9 +53,9 @@ Replanner::Params read_params(const Config& config) {
   Replanner::Params params;
   params.trajectory.yaw = YawPolicy::kGoal;
   PathCost& cost = params.trajectory.path.cost;
-  config.read("radius", cost.radius, kPositive);
-  config.read("margin", cost.margin, kNotNegative);
-  config.read("preferred_clearance", cost.preferred_clearance, kPositive);
+  config.read("radius", cost.radius, {0.001, kLargestClearance});
+  config.read("margin", cost.margin, {0.0, kLargestClearance});
+  config.read("preferred_clearance", cost.preferred_clearance, {0.001, kLargestClearance});
   config.read("clearance_weight", cost.clearance_weight, kNotNegative);
   config.read("unknown_weight", cost.unknown_weight, kNotNegative);
   config.read("unknown_is_free", cost.unknown_is_free);

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace swiftlet {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSpare = 5.0;  // of an area that has to grow, all around [m]
 
 template <class Cells>
 Eigen::Vector2d upper_corner(const Cells& cells) {
@@ -40,6 +42,7 @@ Result<ClearanceMap> ClearanceMap::make(const OccupancyGrid& grid, const PathCos
 
 Status ClearanceMap::update(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach,
                             double border) {
+  if (!empty() && grid.resolution() != resolution()) *this = ClearanceMap(cost_);
   Result<OccupancyGrid> padded = pad(grid, reach, border);
   if (!padded) {
     *this = ClearanceMap(cost_);
@@ -47,14 +50,14 @@ Status ClearanceMap::update(const OccupancyGrid& grid, const std::vector<Eigen::
   }
   if (empty()) {
     // Two cells more than what costs: interpolation, and the neighbours of a ridge.
-    known_clearance_ =
-        std::max(cost_.hard_clearance(), cost_.preferred_clearance) + 2.0 * grid.resolution();
+    known_clearance_ = cost_.free_clearance() + 2.0 * grid.resolution();
     DistanceField::Params params;
     params.unknown_is_obstacle = !cost_.unknown_is_free;
     params.max_distance = known_clearance_ + 0.5 * grid.resolution();
     field_ = DistanceField(params);
   }
   field_.update(*padded);
+  open_ = cost_.unknown_is_free && border >= known_clearance_;
   unknown_.resize(field_.values().size());
   density_.resize(field_.values().size());
   std::vector<CellState> states;
@@ -93,9 +96,9 @@ Result<OccupancyGrid> ClearanceMap::pad(const OccupancyGrid& grid,
   }
   if (!status) return status.error();
   // Another grid, far away, need not go together with this one.
-  if (!empty() && resolution() == grid.resolution()) {
-    (void)around(origin(), upper_corner(field_), -half);
-  }
+  if (empty() || !around(origin(), upper_corner(field_), -half)) return padded;
+  const bool grows = padded.width() != width() || padded.height() != height();
+  if (grows) (void)around(padded.origin(), upper_corner(padded), kSpare - half);
   return padded;
 }
 
@@ -126,7 +129,8 @@ Eigen::Vector2d ClearanceMap::center_of(Cell cell) const {
 }
 
 double ClearanceMap::clearance_at(const Eigen::Vector2d& point) const {
-  if (empty() || !contains(point)) return -1.0;
+  if (empty() || !point.allFinite()) return -1.0;
+  if (!contains(point)) return open_ ? known_clearance_ : -1.0;
   return field_.distance_at(point) - 0.5 * resolution();
 }
 
@@ -141,7 +145,31 @@ double ClearanceMap::density_at(const Eigen::Vector2d& point) const {
 }
 
 double ClearanceMap::segment_cost(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-  if (!contains(a) || !contains(b)) return kInfinity;
+  if (empty() || !a.allFinite() || !b.allFinite()) return kInfinity;
+  if (contains(a) && contains(b)) return inner_cost(a, b);
+  if (!open_) return kInfinity;
+  // The part of the line that is inside (Liang and Barsky), and the rest.
+  const Eigen::Vector2d along = b - a, upper = upper_corner(field_);
+  double enters = 0.0, leaves = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    double first = (origin()[axis] - a[axis]) / along[axis];
+    double last = (upper[axis] - a[axis]) / along[axis];
+    if (first > last) std::swap(first, last);
+    if (along[axis] == 0.0) {
+      const bool beside = a[axis] < origin()[axis] || a[axis] >= upper[axis];
+      first = beside ? 2.0 : 0.0;
+      last = 1.0;
+    }
+    enters = std::max(enters, first);
+    leaves = std::min(leaves, last);
+  }
+  const double inside = std::max(0.0, leaves - enters);
+  const double outer = (1.0 - inside) * along.norm() * (1.0 + cost_.unknown_weight);
+  return inside > 0.0 ? outer + inner_cost(a + enters * along, a + leaves * along) : outer;
+}
+
+/// Between two points inside, or on its edge.
+double ClearanceMap::inner_cost(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
   const double length = (b - a).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(length / (0.5 * resolution()))));
   // The same as density_at, without its questions: between two points inside, all are inside.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -23,11 +24,14 @@ struct PathCost {
   bool unknown_is_free = true;        ///< false: unknown space is an obstacle
 
   double hard_clearance() const { return radius + margin; }  ///< [m], of the centre
+  /// Of the centre, where no obstacle costs anything [m].
+  double free_clearance() const { return std::max(hard_clearance(), preferred_clearance); }
 };
 
 /// An occupancy grid as a planner sees it: how far the nearest obstacle is, what is unknown, and
-/// what a metre costs. The world outside of the grid is unknown space; `reach` asks for a border of
-/// it, so that goals beyond the map can be planned to.
+/// what a metre costs. The world outside of the grid is unknown space. A border of it as wide as
+/// obstacles are felt, where the unknown is free, makes the map an open one: nothing outside needs
+/// cells of its own then, however far it is.
 ///
 /// Clearance is the bilinear distance between centres less half a cell, the distance to the face of
 /// the nearest obstacle cell. It can be up to 0.21 cells too large beside a single corner. Beyond
@@ -43,9 +47,10 @@ class ClearanceMap {
 
   /// Makes the map that of `grid`, with `border` metres of unknown space around it and around the
   /// points of `reach`. Its cost grows with what changed since the last update, but for one look at
-  /// each cell; the area never shrinks, so that points under way do not make it a new one. Fails on
-  /// an empty grid, on points that are not finite, and where grid and points together would need
-  /// more cells than the grid's `max_cells`; the map is empty then.
+  /// each cell; the area never shrinks, and grows by some metres at a time, so that a map that
+  /// grows does not make it a new one at every step. Fails on an empty grid, on points that are not
+  /// finite, and where grid and points together would need more cells than the grid's `max_cells`;
+  /// the map is empty then.
   Status update(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach = {},
                 double border = 0.0);
   /// A new map, updated once.
@@ -61,8 +66,12 @@ class ClearanceMap {
   const PathCost& cost() const { return cost_; }
   const DistanceField& field() const { return field_; }
 
+  /// Whether the world goes on outside as unknown space, to be flown through. Otherwise nothing
+  /// leads there.
+  bool open() const { return open_; }
   bool contains(Cell cell) const { return field_.contains(cell); }
   bool contains(const Eigen::Vector2d& point) const { return contains(cell_of(point)); }
+  /// {-1, -1} of a point outside.
   Cell cell_of(const Eigen::Vector2d& point) const;
   Eigen::Vector2d center_of(Cell cell) const;
   std::size_t index(Cell cell) const {
@@ -74,7 +83,8 @@ class ClearanceMap {
   double known_clearance() const { return known_clearance_; }
   /// [m]. The cell must be inside.
   double clearance(Cell cell) const { return field_.distance(cell) - 0.5 * resolution(); }
-  /// [m]. Negative outside of the map and at a point that is not finite.
+  /// [m]. Outside of an open map `known_clearance()`, of another negative; so is that of a point
+  /// that is not finite.
   double clearance_at(const Eigen::Vector2d& point) const;
   bool is_free(Cell cell) const { return density(cell) < std::numeric_limits<float>::infinity(); }
   bool unknown_at(const Eigen::Vector2d& point) const;
@@ -89,6 +99,7 @@ class ClearanceMap {
 
  private:
   double penalty(double clearance) const;
+  double inner_cost(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
   Status check_cost() const;
   Result<OccupancyGrid> pad(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& reach,
@@ -97,6 +108,7 @@ class ClearanceMap {
 
   PathCost cost_;
   double known_clearance_ = 0.0;
+  bool open_ = false;
   DistanceField field_;
   std::vector<std::uint8_t> unknown_;
   std::vector<float> density_;

@@ -122,8 +122,9 @@ class FillSampler : public ob::StateSampler {
       center = one_of(fill_.reached);
     }
     const Eigen::Vector2d point = center + reach * offset;
-    const bool inside = map_.clearance_at(point) >= map_.cost().hard_clearance();
-    set_point(state, inside ? point : center);
+    const bool good =
+        map_.contains(point) && map_.clearance_at(point) >= map_.cost().hard_clearance();
+    set_point(state, good ? point : center);
   }
   void sampleUniformNear(ob::State* state, const ob::State*, double) override {
     sampleUniform(state);

@@ -13,6 +13,7 @@ namespace {
 // Cost of a metre of density 1 along an axis, per cell, in whole numbers.
 constexpr double kUnit = 10.0;
 constexpr double kMaxStep = 4000.0;
+constexpr double kFar = 1e9;  // and no more, beyond the map
 
 struct Move {
   int x, y;
@@ -47,7 +48,9 @@ bool is_narrow(const ClearanceMap& map, Cell cell) {
 
 FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
   FloodFill fill;
-  if (!map.contains(start) || !map.contains(goal) || !map.is_free(start)) return fill;
+  const bool enters = !map.contains(start), leaves = !map.contains(goal);
+  if ((enters || leaves) && !map.open()) return fill;
+  if (!enters && !map.is_free(start)) return fill;
   const std::size_t cells = map.field().values().size();
   std::vector<std::uint32_t> cost(cells, UINT32_MAX);
   std::vector<std::uint8_t> came_by(cells, kNoMove);
@@ -57,22 +60,70 @@ FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
   const double unit = std::min(kUnit, kMaxStep / (kDiagonal * max_density));
   const auto straight = static_cast<std::uint32_t>(std::max(1.0, std::round(unit)));
   const auto diagonal = static_cast<std::uint32_t>(std::max(1.0, std::round(unit * kDiagonal)));
-  // No way to the goal costs less than in eight directions at density 1.
-  const auto to_go = [&](Cell cell) {
-    const auto dx = static_cast<std::uint32_t>(std::abs(cell.x - goal.x));
-    const auto dy = static_cast<std::uint32_t>(std::abs(cell.y - goal.y));
+  const auto steps = [&](Cell a, Cell b) {
+    const auto dx = static_cast<std::uint32_t>(std::abs(a.x - b.x));
+    const auto dy = static_cast<std::uint32_t>(std::abs(a.y - b.y));
     return straight * (std::max(dx, dy) - std::min(dx, dy)) + diagonal * std::min(dx, dy);
   };
+  // No way to the goal costs less than in eight directions at density 1.
+  const auto to_go = [&](Cell cell) { return steps(cell, goal); };
+  const auto beyond = [&](Cell a, Cell b) {
+    const double cost_there = steps(a, b) * (1.0 + map.cost().unknown_weight);
+    return static_cast<std::uint32_t>(std::min(std::round(cost_there), kFar));
+  };
+  // An edge cell in sight of a place outside.
+  const auto faces = [&](Cell cell, Cell place) {
+    return (cell.x == 0 && place.x < 0) || (cell.x + 1 == map.width() && place.x >= map.width()) ||
+           (cell.y == 0 && place.y < 0) || (cell.y + 1 == map.height() && place.y >= map.height());
+  };
+  struct Entry {
+    std::uint32_t level, cost;
+    Cell cell;
+  };
+  std::vector<Entry> entries;
+  const auto enter = [&](Cell cell) {
+    if (!faces(cell, start) || !map.is_free(cell)) return;
+    const std::uint32_t way = beyond(start, cell);
+    entries.push_back({way + to_go(cell), way, cell});
+  };
+  if (enters) {
+    for (int x = 0; x < map.width(); ++x) {
+      enter({x, 0});
+      enter({x, map.height() - 1});
+    }
+    for (int y = 0; y < map.height(); ++y) {
+      enter({0, y});
+      enter({map.width() - 1, y});
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.level < b.level; });
+  } else {
+    entries.push_back({to_go(start), 0, start});
+  }
+  if (entries.empty()) return fill;
+
   const auto dearest = static_cast<std::size_t>(std::ceil(unit * kDiagonal * max_density));
   const std::size_t buckets = dearest + 2 * diagonal + 2;
   std::vector<std::vector<Cell>> queue(buckets);
-  cost[map.index(start)] = 0;
-  const std::uint32_t first = to_go(start);
-  queue[first % buckets].push_back(start);
-  std::size_t waiting = 1;
-  std::uint64_t last = UINT32_MAX;
-  for (std::uint32_t level = first; waiting > 0 && level <= last; ++level) {
+  std::uint32_t best = UINT32_MAX;  // of all ways to the goal
+  Cell end = goal;                  // of that way, in the map
+  const auto arrive = [&](Cell cell, std::uint32_t whole) {
+    if (whole >= best) return;
+    best = whole;
+    end = cell;
+  };
+  std::size_t waiting = 0, entered = 0;
+  for (std::uint32_t level = entries[0].level; waiting > 0 || entered < entries.size(); ++level) {
+    if (best < UINT32_MAX && level > best + best / 10) break;
     std::vector<Cell>& bucket = queue[level % buckets];
+    for (; entered < entries.size() && entries[entered].level == level; ++entered) {
+      const Entry& entry = entries[entered];
+      if (entry.cost >= cost[map.index(entry.cell)]) continue;
+      cost[map.index(entry.cell)] = entry.cost;
+      came_by[map.index(entry.cell)] = kNoMove;
+      bucket.push_back(entry.cell);
+      ++waiting;
+    }
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Cell cell = bucket[i];
       --waiting;
@@ -81,7 +132,8 @@ FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
       done[at] = 1;
       fill.reached.push_back(cell);
       if (is_narrow(map, cell)) fill.narrow.push_back(cell);
-      if (cell == goal) last = level + level / 10;
+      if (cell == goal) arrive(cell, cost[at]);
+      if (leaves && faces(cell, goal)) arrive(cell, cost[at] + beyond(cell, goal));
       for (std::uint8_t m = 0; m < kMoves.size(); ++m) {
         const Move& move = kMoves[m];
         const Cell next{cell.x + move.x, cell.y + move.y};
@@ -101,8 +153,8 @@ FloodFill flood_fill(const ClearanceMap& map, Cell start, Cell goal) {
     }
     bucket.clear();
   }
-  if (done[map.index(goal)] != 0) {
-    for (Cell cell = goal; fill.to_goal.size() <= cells;) {
+  if (best < UINT32_MAX) {
+    for (Cell cell = end; fill.to_goal.size() <= cells;) {
       fill.to_goal.push_back(cell);
       const std::uint8_t m = came_by[map.index(cell)];
       if (m == kNoMove) break;

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "planner/path/fast_marching_tree.hpp"
 #include "planner/path/flood_fill.hpp"
@@ -47,6 +49,33 @@ std::optional<Cell> anchor(const ClearanceMap& map, const Eigen::Vector2d& point
     }
   }
   return best;
+}
+
+/// The same; of a point outside of an open map, the cell that would be there.
+std::optional<Cell> anchor_anywhere(const ClearanceMap& map, const Eigen::Vector2d& point) {
+  if (!map.open() || map.contains(point)) return anchor(map, point);
+  const Eigen::Vector2d cells = (point - map.origin()) / map.resolution();
+  return Cell{static_cast<int>(std::floor(cells.x())), static_cast<int>(std::floor(cells.y()))};
+}
+
+/// Of the line between two points of which one is outside, which no fill knows; infinite otherwise.
+double cost_across(const ClearanceMap& map, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return map.contains(a) && map.contains(b) ? std::numeric_limits<double>::infinity()
+                                            : map.segment_cost(a, b);
+}
+
+/// The way with start and goal at its ends where these are outside of the map.
+Polyline with_ends(const ClearanceMap& map, Polyline way, const Eigen::Vector2d& start,
+                   const Eigen::Vector2d& goal) {
+  if (!map.contains(start)) way.insert(way.begin(), start);
+  if (!map.contains(goal)) way.push_back(goal);
+  return way;
+}
+
+Polyline centers(const ClearanceMap& map, const std::vector<Cell>& cells) {
+  Polyline line;
+  for (const Cell cell : cells) line.push_back(map.center_of(cell));
+  return line;
 }
 
 /// The nearest free cell within a distance, where the line to it never gets nearer to an obstacle
@@ -99,19 +128,38 @@ Polyline smooth(const ClearanceMap& map, const Polyline& rough, int rounds) {
 PathPlanner::PathPlanner() = default;
 PathPlanner::PathPlanner(const Params& params) : params_(params) {}
 
-Result<ClearanceMap> PathPlanner::make_map(const OccupancyGrid& grid, const Eigen::Vector2d& start,
-                                           const Eigen::Vector2d& goal) const {
-  return ClearanceMap::make(grid, params_.cost, {start, goal}, params_.border);
+Result<ClearanceMap> PathPlanner::make_map(const OccupancyGrid& grid,
+                                           const Eigen::Vector2d& start) const {
+  ClearanceMap map(params_.cost);
+  if (Status status = update_map(map, grid, start); !status) return status.error();
+  return map;
+}
+
+Status PathPlanner::update_map(ClearanceMap& map, const OccupancyGrid& grid,
+                               const Eigen::Vector2d& start) const {
+  if (!params_.cost.unknown_is_free) return map.update(grid, {start}, params_.border);
+  // Two cells more than what costs, as the map knows it.
+  const double felt = params_.cost.free_clearance() + 2.0 * grid.resolution();
+  return map.update(grid, {}, std::max(params_.border, felt));
 }
 
 double PathPlanner::least_cost(const ClearanceMap& map, const Eigen::Vector2d& start,
                                const Eigen::Vector2d& goal) const {
-  if (map.empty() || !map.contains(start) || !map.contains(goal)) return 0.0;
-  const std::optional<Cell> from = anchor(map, start), to = anchor(map, goal);
+  if (map.empty() || too_far(map, start, goal)) return 0.0;
+  const std::optional<Cell> from = anchor_anywhere(map, start), to = anchor_anywhere(map, goal);
   if (!from || !to) return 0.0;
-  Polyline way;
-  for (const Cell cell : flood_fill(map, *from, *to).to_goal) way.push_back(map.center_of(cell));
-  return kEightDirections * polyline_cost(map, way);
+  const std::vector<Cell> cells = flood_fill(map, *from, *to).to_goal;
+  const double straight = cost_across(map, start, goal);
+  if (cells.empty()) return std::isfinite(straight) ? straight : 0.0;
+  const Polyline way = with_ends(map, centers(map, cells), start, goal);
+  return std::min(straight, kEightDirections * polyline_cost(map, way));
+}
+
+/// Whether the goal is farther than is planned beyond the map.
+bool PathPlanner::too_far(const ClearanceMap& map, const Eigen::Vector2d& start,
+                          const Eigen::Vector2d& goal) const {
+  return (!map.contains(start) || !map.contains(goal)) &&
+         !((goal - start).norm() <= params_.farthest);
 }
 
 PathResult PathPlanner::plan(const OccupancyGrid& grid, const Eigen::Vector2d& start,
@@ -119,7 +167,7 @@ PathResult PathPlanner::plan(const OccupancyGrid& grid, const Eigen::Vector2d& s
   if (!start.allFinite() || !goal.allFinite()) {
     return failed(PlanFailure::kBadInput, "start or goal of the path is not finite");
   }
-  const Result<ClearanceMap> map = make_map(grid, start, goal);
+  const Result<ClearanceMap> map = make_map(grid, start);
   if (!map) {
     return failed(grid.empty() ? PlanFailure::kBadInput : PlanFailure::kGoalOutsideMap,
                   map.error().reason);
@@ -134,12 +182,19 @@ PathResult PathPlanner::plan(const ClearanceMap& map, const Eigen::Vector2d& sta
   }
   if (map.empty()) return failed(PlanFailure::kBadInput, "there is no map to plan in yet");
   const double hard = map.cost().hard_clearance();
-  if (!map.contains(goal) || (!map.cost().unknown_is_free && map.unknown_at(goal))) {
+  if ((!map.contains(goal) && !map.open()) ||
+      (!map.cost().unknown_is_free && map.unknown_at(goal))) {
     return failed(
         PlanFailure::kGoalOutsideMap,
         fmt::format("the goal ({:.2f}, {:.2f}) is outside of the map", goal.x(), goal.y()));
   }
-  const std::optional<Cell> goal_cell = anchor(map, goal);
+  if (too_far(map, start, goal)) {
+    return failed(PlanFailure::kGoalOutsideMap,
+                  fmt::format("the goal ({:.2f}, {:.2f}) is {:.0f} m away, and no way beyond the "
+                              "map is longer than {:.0f} m",
+                              goal.x(), goal.y(), (goal - start).norm(), params_.farthest));
+  }
+  const std::optional<Cell> goal_cell = anchor_anywhere(map, goal);
   if (!goal_cell) {
     return failed(PlanFailure::kGoalInObstacle,
                   fmt::format("the goal ({:.2f}, {:.2f}) is {:.2f} m from an obstacle, the vehicle "
@@ -150,7 +205,7 @@ PathResult PathPlanner::plan(const ClearanceMap& map, const Eigen::Vector2d& sta
   // Out of the reach of obstacles, where the start is too near to one.
   PathResult result;
   Eigen::Vector2d free_start = start;
-  std::optional<Cell> start_cell = anchor(map, start);
+  std::optional<Cell> start_cell = anchor_anywhere(map, start);
   if (!start_cell) {
     start_cell = nearest_free(map, start, params_.escape_distance);
     if (!start_cell) {
@@ -167,24 +222,35 @@ PathResult PathPlanner::plan(const ClearanceMap& map, const Eigen::Vector2d& sta
 
   // 1. Is there a way at all?
   const FloodFill fill = flood_fill(map, *start_cell, *goal_cell);
-  if (fill.to_goal.empty()) {
+  const bool straight = std::isfinite(cost_across(map, free_start, goal));
+  if (fill.to_goal.empty() && !straight) {
     return failed(PlanFailure::kNoPath,
                   fmt::format("no path from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f}) with {:.2f} m "
                               "clearance",
                               start.x(), start.y(), goal.x(), goal.y(), hard));
   }
-  Polyline filled{free_start};
-  for (const Cell cell : fill.to_goal) filled.push_back(map.center_of(cell));
-  filled.push_back(goal);
 
-  // 2. FMT*, and 3. the cheaper of the two, smoothed.
-  Polyline line = shortcut(map, thin(map, filled, kSpacing), kPricePerPoint);
-  FastMarchingTreeParams tree;
-  tree.samples = params_.samples;
-  const Polyline rough = fast_marching_tree(map, fill, free_start, goal, tree, seed);
-  if (rough.size() >= 2) {
-    Polyline candidate = shortcut(map, rough, kPricePerPoint);
-    if (polyline_cost(map, candidate) < polyline_cost(map, line)) line = std::move(candidate);
+  // 2. FMT*, and 3. the cheapest, smoothed.
+  Polyline line{free_start, goal};
+  const auto consider = [&](const Polyline& candidate) {
+    if (polyline_cost(map, candidate) < polyline_cost(map, line)) line = candidate;
+  };
+  if (!fill.to_goal.empty()) {
+    Polyline filled = centers(map, fill.to_goal);
+    const Eigen::Vector2d first = filled.front(), last = filled.back();
+    filled.insert(filled.begin(), free_start);
+    filled.push_back(goal);
+    filled = shortcut(map, thin(map, filled, kSpacing), kPricePerPoint);
+    if (!straight) line = filled;
+    consider(filled);
+    FastMarchingTreeParams tree;
+    tree.samples = params_.samples;
+    const Polyline rough =
+        fast_marching_tree(map, fill, map.contains(free_start) ? free_start : first,
+                           map.contains(goal) ? goal : last, tree, seed);
+    if (rough.size() >= 2) {
+      consider(shortcut(map, with_ends(map, rough, free_start, goal), kPricePerPoint));
+    }
   }
   line = smooth(map, line, params_.smoothing_rounds);
 

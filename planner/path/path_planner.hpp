@@ -17,7 +17,7 @@ enum class PlanFailure {
   kBadInput,        ///< not finite, or no map at all
   kStartInContact,  ///< no free place within the escape distance
   kGoalInObstacle,  ///< the goal is nearer to an obstacle than radius + margin
-  kGoalOutsideMap,  ///< too far away for the memory, or the unknown is not to be flown through
+  kGoalOutsideMap,  ///< too far away, or the unknown is not to be flown through
   kNoPath,          ///< start and goal are not connected by places with enough clearance
   kNoTrajectory,    ///< there is a path, but no trajectory along it within the limits
 };
@@ -43,7 +43,8 @@ struct PathResult {
 /// Schmerling, Clark and Pavone, Fast marching tree, IJRR 34(7), 2015).
 ///
 ///  1. Whether there is a path is decided exactly, by flood fill over the cells with enough
-///     clearance: a closed door is found in milliseconds, not by running out of samples.
+///     clearance: a closed door is found in milliseconds, not by running out of samples. From and
+///     to places beyond the map it is entered and left in a straight line.
 ///  2. FMT* connects samples drawn from the cells that the fill reached: some from around the
 ///  fill's
 ///     way, some from the ridge of the distance field in narrow passages, the rest from anywhere.
@@ -58,7 +59,8 @@ class PathPlanner {
     PathCost cost;
     int samples = 200;             ///< of FMT*
     double escape_distance = 0.4;  ///< a start in contact is moved at most so far [m]
-    double border = 1.0;           ///< of unknown space around grid, start and goal [m]
+    double border = 1.0;           ///< of unknown space around the grid, at least [m]
+    double farthest = 300.0;       ///< goal from start, where one is outside of the map [m]
     int smoothing_rounds = 4;
   };
 
@@ -77,13 +79,19 @@ class PathPlanner {
   double least_cost(const ClearanceMap& map, const Eigen::Vector2d& start,
                     const Eigen::Vector2d& goal) const;
 
-  /// The map that `plan` works on, to be shared with the checks of a trajectory.
-  Result<ClearanceMap> make_map(const OccupancyGrid& grid, const Eigen::Vector2d& start,
-                                const Eigen::Vector2d& goal) const;
+  /// The map that `plan` works on, to be shared with the checks of a trajectory. It reaches to the
+  /// start only where it is not open.
+  Result<ClearanceMap> make_map(const OccupancyGrid& grid, const Eigen::Vector2d& start) const;
+  /// Makes it that of another grid and start.
+  Status update_map(ClearanceMap& map, const OccupancyGrid& grid,
+                    const Eigen::Vector2d& start) const;
 
   const Params& params() const { return params_; }
 
  private:
+  bool too_far(const ClearanceMap& map, const Eigen::Vector2d& start,
+               const Eigen::Vector2d& goal) const;
+
   Params params_;
 };
 

@@ -88,9 +88,8 @@ Replanner::Situation Replanner::assess(const Input& input) {
     }
   }
   const OccupancyGrid none;
-  const Status status = map_.update(input.grid == nullptr ? none : *input.grid,
-                                    {s.start.position.head<2>(), input.goal.position.head<2>()},
-                                    params_.trajectory.path.border);
+  const Status status = planner_.path_planner().update_map(
+      map_, input.grid == nullptr ? none : *input.grid, s.start.position.head<2>());
   if (!status) {
     s.map_problem = status.error().reason;
     return s;
@@ -112,7 +111,10 @@ ReplanDecision Replanner::answer_failure(const Input& input, const Situation& si
   decision.blocked = situation.conflict.has_value();
   // What is flown breaks limits that are new: from rest there is a way within them.
   const bool too_fast = replaces_ && situation.under_way && failure == PlanFailure::kNoTrajectory;
-  if (situation.to_goal && !decision.blocked && !too_fast) return decision;  // it will do
+  // It will do, as long as a map says so.
+  if (situation.to_goal && !decision.blocked && !too_fast && situation.map_problem.empty()) {
+    return decision;
+  }
   if (!failing_since_) failing_since_ = input.now;
   const bool given_up = input.now - *failing_since_ >= params_.give_up_after;
   const double braking_s =

@@ -190,7 +190,7 @@ TrajectoryResult TrajectoryPlanner::plan(const OccupancyGrid& grid, Time start_t
     result.reason = "start or goal of the trajectory is not finite";
     return result;
   }
-  const Result<ClearanceMap> map = path_planner_.make_map(grid, from, to);
+  const Result<ClearanceMap> map = path_planner_.make_map(grid, from);
   if (!map) {
     result.failure = grid.empty() ? PlanFailure::kBadInput : PlanFailure::kGoalOutsideMap;
     result.reason = map.error().reason;

@@ -62,7 +62,7 @@ Problem draw_problem(MakeGrid make_grid, std::mt19937& random) {
     problem.start = problem.grid.origin() + Vector2d(x(random), y(random));
     problem.goal = problem.grid.origin() + Vector2d(x(random), y(random));
     if ((problem.goal - problem.start).norm() < 2.0) continue;
-    problem.map = *planner.make_map(problem.grid, problem.start, problem.goal);
+    problem.map = *planner.make_map(problem.grid, problem.start);
     const ClearanceMap& map = problem.map;
     if (map.clearance_at(problem.start) < 0.4 || map.clearance_at(problem.goal) < 0.4) continue;
     const double way = test::dijkstra_length(

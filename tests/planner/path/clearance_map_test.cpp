@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "tests/planner/path/maps.hpp"
 
@@ -86,6 +87,62 @@ TEST(ClearanceMap, ReachesBeyondTheGrid) {
   EXPECT_LT(map->clearance_at({90.0, 0.0}), 0.0);
 }
 
+TEST(ClearanceMap, AnOpenOneGoesOnOutsideAsOneThatReachesFarther) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-20.0, 28.0), near(-1.0, 9.0);
+  int across = 0;
+  for (int field = 0; field < 20; ++field) {
+    OccupancyGrid grid = test::random_field(random, 8.0);
+    test::paint(grid, 7.85, 2.0, 8.1, 5.0, CellState::kFree);
+    const auto map = ClearanceMap::make(grid, {}, {}, 1.0);
+    const auto far = ClearanceMap::make(grid, {}, {{-20.0, -20.0}, {28.0, 28.0}}, 1.0);
+    ASSERT_TRUE(map.ok() && far.ok());
+    ASSERT_TRUE(map->open());
+    const double hard = map->cost().hard_clearance();
+    for (int trial = 0; trial < 200; ++trial) {
+      const Eigen::Vector2d a(place(random), place(random)), b(near(random), near(random));
+      EXPECT_NEAR(map->clearance_at(a), far->clearance_at(a), 1e-5);
+      EXPECT_EQ(map->unknown_at(a), far->unknown_at(a));
+      EXPECT_NEAR(std::min(99.0, map->density_at(a)), std::min(99.0, far->density_at(a)), 1e-4);
+      const double cost = map->segment_cost(a, b), expected = far->segment_cost(a, b);
+      if (std::isfinite(cost) && std::isfinite(expected)) {
+        EXPECT_NEAR(cost, expected, 0.01 * expected);
+        across += !map->contains(a);
+        continue;
+      }
+      // Looked at at different places, a line that just touches may pass.
+      double least = 9.0;
+      for (int k = 0; k <= 2000; ++k) {
+        least = std::min(least, far->clearance_at(a + (b - a) * (k / 2000.0)));
+      }
+      EXPECT_LT(least, hard + 0.01);
+      if (least < hard - 0.02) {
+        EXPECT_FALSE(std::isfinite(cost)) << a.transpose() << " to " << b.transpose();
+      }
+    }
+    // Along an edge and through a corner.
+    const Eigen::Vector2d corner = map->origin();
+    EXPECT_NEAR(map->segment_cost(corner - Eigen::Vector2d(2, 0), corner - Eigen::Vector2d(0, 2)),
+                far->segment_cost(corner - Eigen::Vector2d(2, 0), corner - Eigen::Vector2d(0, 2)),
+                0.01);
+    EXPECT_NEAR(map->segment_cost(corner - Eigen::Vector2d(0, 2), corner + Eigen::Vector2d(0, 2)),
+                6.0, 0.01);
+  }
+  EXPECT_GT(across, 50);
+}
+
+TEST(ClearanceMap, IsClosedWhereTheUnknownIsOrTheBorderIsNarrow) {
+  const OccupancyGrid grid = test::hall(6, 6);
+  EXPECT_FALSE(ClearanceMap::make(grid, {}, {}, 0.5)->open());
+  PathCost cost;
+  cost.unknown_is_free = false;
+  const auto closed = ClearanceMap::make(grid, cost, {}, 1.0);
+  ASSERT_TRUE(closed.ok());
+  EXPECT_FALSE(closed->open());
+  EXPECT_LT(closed->clearance_at({90.0, 0.0}), 0.0);
+  EXPECT_FALSE(std::isfinite(closed->segment_cost({90.0, 0.0}, {91.0, 0.0})));
+}
+
 TEST(ClearanceMap, UpdatedItIsTheOneThatAFreshOneWouldBe) {
   std::mt19937 random(3);
   OccupancyGrid grid = test::office();
@@ -124,6 +181,33 @@ TEST(ClearanceMap, AnotherPlaceIsAnotherMap) {
   OccupancyGrid far(OccupancyGrid::Params(), {5e5, 5e5}, 40, 40);
   ASSERT_TRUE(map.update(far).ok());
   EXPECT_EQ(map.width(), 40);
+}
+
+TEST(ClearanceMap, OfAnotherResolutionIsAnotherMap) {
+  ClearanceMap map{PathCost()};
+  OccupancyGrid::Params coarse;
+  coarse.resolution = 0.2;
+  ASSERT_TRUE(map.update(OccupancyGrid(coarse, {0, 0}, 30, 30), {}, 1.3).ok());
+  EXPECT_TRUE(map.open());
+  ASSERT_TRUE(map.update(test::hall(6, 6), {}, 1.0).ok());
+  EXPECT_TRUE(map.open()) << "what obstacles are felt at is two cells more than it costs";
+  EXPECT_EQ(map.resolution(), 0.05);
+}
+
+TEST(ClearanceMap, GrowsByMetresAndNotByCells) {
+  OccupancyGrid grid = test::hall(6, 6);
+  ClearanceMap map{PathCost()};
+  ASSERT_TRUE(map.update(grid, {}, 1.0).ok());
+  int sizes = 0, width = map.width();
+  EXPECT_EQ(width, 160);
+  for (double edge = 6.0; edge < 26.0; edge += 0.1) {
+    ASSERT_TRUE(grid.cover({1.0, 1.0}, {edge, 3.0}).ok());
+    ASSERT_TRUE(map.update(grid, {}, 1.0).ok());
+    EXPECT_TRUE(map.contains(Eigen::Vector2d(edge + 0.9, 0.0)));
+    sizes += std::exchange(width, map.width()) != width;
+  }
+  EXPECT_GE(sizes, 2);
+  EXPECT_LE(sizes, 5);
 }
 
 TEST(ClearanceMap, RefusesWhatMakesNoMap) {

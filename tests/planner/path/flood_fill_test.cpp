@@ -92,6 +92,27 @@ TEST(FloodFill, WithoutAWayItFillsAllThatCanBeReached) {
   }
 }
 
+TEST(FloodFill, LeavesAnOpenMapByTheEdgeThatFacesTheGoal) {
+  OccupancyGrid grid = test::hall(6, 6);
+  test::paint(grid, -1, 2, 0.15, 4, CellState::kFree);
+  const auto map = ClearanceMap::make(grid, {}, {}, 1.0);
+  ASSERT_TRUE(map.ok());
+  const Cell start = map->cell_of({3, 3});
+  const auto last = [&](Cell goal) { return flood_fill(*map, start, goal).to_goal.back(); };
+  EXPECT_EQ(last({-500, start.y}), (Cell{0, start.y}));
+  EXPECT_EQ(last({-500, -480}).x, 0);
+  EXPECT_EQ(last({start.x, 3000}).y, map->height() - 1);
+  EXPECT_EQ(last({map->width(), start.y}).x, map->width() - 1) << "around the hall";
+  // And is entered by the edge that faces the start.
+  const FloodFill across = flood_fill(*map, {-40, start.y}, {-40, start.y + 500});
+  ASSERT_FALSE(across.to_goal.empty());
+  EXPECT_EQ(across.to_goal.front().x, 0);
+  const Cell first = flood_fill(*map, {900, -700}, start).to_goal.front();
+  EXPECT_TRUE(first.x == map->width() - 1 || first.y == 0) << first.x << " " << first.y;
+  const auto narrow = ClearanceMap::make(grid, {}, {}, 0.5);
+  EXPECT_TRUE(flood_fill(*narrow, narrow->cell_of({3, 3}), {-500, 70}).to_goal.empty());
+}
+
 TEST(FloodFill, NarrowCellsLieInTheMiddleOfPassages) {
   const OccupancyGrid grid = test::office();
   const auto map = ClearanceMap::make(grid, {});

@@ -55,7 +55,7 @@ TEST(PathPlanner, ThousandsOfRandomMapsAgreeWithDijkstra) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const OccupancyGrid grid = test::random_field(random, 8.0);
     const Eigen::Vector2d start(place(random), place(random)), goal(place(random), place(random));
-    const auto map = planner.make_map(grid, start, goal);
+    const auto map = planner.make_map(grid, start);
     ASSERT_TRUE(map.ok());
     const double hard = params.cost.hard_clearance();
     // Start and goal clear of the borderline, which the oracle decides by centres of cells.
@@ -164,6 +164,64 @@ TEST(PathPlanner, GoesBeyondTheMapWhereUnknownIsFree) {
             PlanFailure::kGoalOutsideMap);
 }
 
+TEST(PathPlanner, AWayBeyondTheMapCostsWhatItWouldOnAMapThatReachesSoFar) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0.6, 7.4), around(-14.0, 22.0);
+  const PathPlanner planner;
+  const PathPlanner::Params& params = planner.params();
+  int ways = 0, closed = 0, behind = 0, from_outside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    OccupancyGrid grid = test::random_field(random, 8.0);
+    const double door = inside(random);
+    if (trial % 4 != 0) test::paint(grid, 7.85, door - 0.6, 8.1, door + 0.6, CellState::kFree);
+    Eigen::Vector2d start(inside(random), inside(random));
+    Eigen::Vector2d goal(around(random), around(random));
+    if (trial % 5 == 1) std::swap(start, goal);
+    if (trial % 5 == 2) start = {around(random), around(random)};
+    const auto map = planner.make_map(grid, start);
+    const auto far = ClearanceMap::make(grid, params.cost, {start, goal}, params.border);
+    ASSERT_TRUE(map.ok() && far.ok());
+    if (map->contains(goal) && map->contains(start)) continue;
+    ASSERT_TRUE(far->contains(goal) && far->contains(start));
+    const PathResult found = planner.plan(*map, start, goal, kSeed);
+    const PathResult expected = planner.plan(*far, start, goal, kSeed);
+    ASSERT_EQ(found.failure, expected.failure) << trial << ": " << found.reason;
+    if (!found.ok()) {
+      closed += found.failure == PlanFailure::kNoPath;
+      continue;
+    }
+    ++ways;
+    behind += goal.x() < 0.0;
+    from_outside += !map->contains(start);
+    EXPECT_EQ(found.path.points.front(), start);
+    EXPECT_EQ(found.path.points.back(), goal);
+    // There the fill makes steps in eight directions; a straight line can be better.
+    EXPECT_LE(found.path.cost, 1.03 * expected.path.cost) << trial;
+    EXPECT_GE(found.path.cost, 0.92 * expected.path.cost) << trial;
+    EXPECT_LE(planner.least_cost(*map, start, goal), 1.005 * found.path.cost) << trial;
+    for (const auto& p : points_along(found.path)) {
+      if (found.path.escapes) break;
+      ASSERT_GE(far->clearance_at(p), params.cost.hard_clearance() - 0.3 * grid.resolution())
+          << trial;
+    }
+  }
+  EXPECT_GT(ways, 80);
+  EXPECT_GT(closed, 20);
+  EXPECT_GT(behind, 20) << "around the outside";
+  EXPECT_GT(from_outside, 30);
+}
+
+TEST(PathPlanner, GoesNoFartherBeyondTheMapThanIsSaid) {
+  OccupancyGrid grid({}, {0, 0}, 80, 80);
+  test::paint(grid, 0, 0, 4, 4, CellState::kFree);
+  const PathResult far = PathPlanner().plan(grid, {2, 2}, {292, 2}, kSeed);
+  ASSERT_TRUE(far.ok()) << far.reason;
+  EXPECT_NEAR(far.path.length, 290.0, 0.1);
+  const PathResult too_far = PathPlanner().plan(grid, {2, 2}, {312, 2}, kSeed);
+  EXPECT_EQ(too_far.failure, PlanFailure::kGoalOutsideMap);
+  EXPECT_THAT(too_far.reason, HasSubstr("(312.00, 2.00) is 310 m away"));
+}
+
 TEST(PathPlanner, TheSameInputsGiveTheSameBits) {
   const OccupancyGrid grid = test::office();
   const PathPlanner planner;
@@ -205,7 +263,7 @@ TEST(PathPlanner, TheLeastCostIsBelowEveryPathAndNotByMuch) {
   int compared = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Eigen::Vector2d start(x(random), y(random)), goal(x(random), y(random));
-    const auto map = planner.make_map(grid, start, goal);
+    const auto map = planner.make_map(grid, start);
     const PathResult result = planner.plan(*map, start, goal, kSeed);
     if (!result.ok() || result.path.escapes || result.path.length < 1.0) continue;
     const double least = planner.least_cost(*map, start, goal);

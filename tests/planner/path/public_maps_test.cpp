@@ -52,7 +52,7 @@ TEST_P(MovingAi, PathsAreAsShortAsThePublishedOptimum) {
   params.cost.unknown_is_free = false;
   params.border = 0.0;
   const PathPlanner planner(params);
-  const auto field = planner.make_map(grid, {0.5, 0.5}, {0.5, 0.5});
+  const auto field = planner.make_map(grid, {0.5, 0.5});
   ASSERT_TRUE(field.ok());
 
   std::istringstream scenarios(read_gzip(file.string() + ".map.scen.gz"));

@@ -283,6 +283,24 @@ TEST(Replanner, WithoutAMapOrWithNonsenseItFailsInItsTime) {
   }
 }
 
+TEST(Replanner, WithoutAMapAnyMoreWhatIsFlownIsNotFlownBlindly) {
+  Flight flight(test::office(), {1, 1, 1}, {3, 9, 1});
+  flight.fly(3.0);
+  ASSERT_FALSE(flight.current.empty());
+  flight.grid() = OccupancyGrid();
+  const ReplanDecision last = flight.fly(3.0);
+  EXPECT_EQ(last.action, ReplanAction::kFail);
+  EXPECT_FALSE(last.reason.empty());
+}
+
+TEST(Replanner, FliesOnFarOutsideOfAMapThatStaysAsItIs) {
+  OccupancyGrid grid = test::hall(6, 6);
+  test::paint(grid, 5.85, 2.0, 6.1, 4.0, CellState::kFree);
+  Flight flight(grid, {3, 3, 1}, {60, 50, 1});
+  flight.fly(120.0);
+  EXPECT_LT((flight.vehicle.p_WB - Eigen::Vector3d(60, 50, 1)).norm(), 0.05);
+}
+
 TEST(Replanner, TheSameFlightTwiceIsTheSameToTheBit) {
   const auto run = [] {
     Flight flight(test::office(), {1, 1, 1}, {3, 9, 1});

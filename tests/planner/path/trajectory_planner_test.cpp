@@ -40,8 +40,7 @@ TEST(TrajectoryPlanner, KeepsClearanceAndLimitsThroughRandomFields) {
     const OccupancyGrid grid = test::random_field(random, 8.0);
     const Eigen::Vector3d start(place(random), place(random), 1.0);
     const FlightGoal goal{{place(random), place(random), 1.4}, 0.0};
-    const auto map =
-        planner.path_planner().make_map(grid, start.head<2>(), goal.position.head<2>());
+    const auto map = planner.path_planner().make_map(grid, start.head<2>());
     ASSERT_TRUE(map.ok());
     if (map->clearance_at(start.head<2>()) < 0.35) continue;
     const TrajectoryResult result = planner.plan(*map, Time{}, at_rest(start), goal, kSeed);
