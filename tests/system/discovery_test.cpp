@@ -55,7 +55,8 @@ TEST_P(ThirtyParticipants, KnowEachOtherWithinFiveSeconds) {
   std::optional<Process> server;
   if (GetParam().server) {
     server.emplace(start_command_on(
-        "vehicle", {"fast-discovery-server", "-i", "0", "-l", "10.9.0.1", "-p", "11811"}));
+        "vehicle", {"fast-discovery-server", "-i", "0", "-l", "10.9.0.1", "-p", "11811", "-x",
+                    SWIFTLET_SOURCE_DIR "/components/launch/discovery-server.xml"}));
   }
   std::vector<std::string> arguments{SWIFTLET_DISCOVERY_NODE, "--others",
                                      std::to_string(kHosts * kOnEach - 1)};
