@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: The Swiftlet authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// slam_live_bench [SPEED]: how long a scan takes to its pose in real time, 1000 beams at 20 Hz
-// around a block without odometry: with loops that are closed beside, and with hardly any. Says of
-// the longest delays what the mapper's thread did meanwhile: whether it computed, waited for a
-// processor, or was held up by something else.
+// slam_live_bench [ROUNDS]: how long a scan takes to its pose in real time, 1000 beams at 20 Hz
+// around a block without odometry: with loops that are closed beside, and with hardly any, in turn.
+// The pose is heard as it is delivered, in the mapper's thread, and by a component that does
+// nothing else, in its own. Says of the longest delays what those threads did meanwhile: whether
+// they computed, waited for a processor, or were held up by something else.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
-#include <map>
 #include <vector>
 
 #include "components/conversions.hpp"
@@ -24,6 +26,11 @@ namespace swiftlet {
 namespace {
 
 using namespace std::chrono_literals;
+using geometry_msgs::msg::PoseWithCovarianceStamped;
+
+constexpr int kDomain = 74;
+constexpr double kSpeed = 1.6;       // [m/s]
+constexpr std::size_t kLongest = 5;  // delays of each kind, told one by one
 
 /// What the kernel counts of a thread [ms]. Waiting that began before a scan is counted whole when
 /// it ends.
@@ -31,28 +38,56 @@ struct ThreadTimes {
   double computed = 0.0;
   double waited = 0.0;  // for a processor
 };
+ThreadTimes operator-(const ThreadTimes& a, const ThreadTimes& b) {
+  return {a.computed - b.computed, a.waited - b.waited};
+}
 ThreadTimes times_of(pid_t thread) {
   std::ifstream file(fmt::format("/proc/self/task/{}/schedstat", thread));
   double computed_ns = 0.0, waited_ns = 0.0;
   file >> computed_ns >> waited_ns;
   return {computed_ns * 1e-6, waited_ns * 1e-6};
 }
+/// Of all threads together [ms].
+double computed_by_all() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
-/// From a scan to its pose [ms].
-struct Delay {
-  double whole = 0.0;
-  ThreadTimes mapper;
+/// One moment, as the bench sees it.
+struct Moment {
+  Time time;
+  ThreadTimes mapper, listener;
+  double all = 0.0;
 };
 
-/// Sends the scans, and takes the poses as they are delivered, in the mapper's thread.
-class Driver : public Component {
+/// The mapper's thread and a listener's; 0 before they are known.
+struct Threads {
+  std::atomic<pid_t> mapper{0}, listener{0};
+  Moment look(Time now) const {
+    return {now, times_of(mapper), times_of(listener), computed_by_all()};
+  }
+};
+
+/// Hears poses.
+class Listener : public Component {
  public:
-  Driver(const ComponentContext& context, const std::vector<test::BlockStep>& steps)
-      : Component(context), steps_(steps) {
-    scan_ = advertise(topic::scan);
-    subscribe(at_once(topic::lidar_pose),
-              [this](const geometry_msgs::msg::PoseWithCovarianceStamped& pose) { hear(pose); });
-    // The past is moved when a loop has been closed.
+  Listener(const ComponentContext& context, const Topic<PoseWithCovarianceStamped>& topic,
+           const Threads& threads, std::atomic<pid_t>& thread)
+      : Component(context) {
+    subscribe(topic, [this, &threads, &thread](const PoseWithCovarianceStamped& pose) {
+      const Time time = now();
+      thread = gettid();
+      heard.emplace_back(from_msg(pose.header().stamp()), threads.look(time));
+    });
+  }
+  std::vector<std::pair<Time, Moment>> heard;  // a scan's stamp, and when its pose came
+};
+
+/// Counts how often the past is moved, as it is when a loop has been closed.
+class PathWatch : public Component {
+ public:
+  explicit PathWatch(const ComponentContext& context) : Component(context) {
     subscribe(topic::lidar_path, [this](const nav_msgs::msg::Path& path) {
       double moved = 0.0;
       for (std::size_t i = 0; i < std::min(last_.poses().size(), path.poses().size()); ++i) {
@@ -63,94 +98,142 @@ class Driver : public Component {
       if (moved > 0.005) ++corrections;
       last_ = path;
     });
-    every(50ms, [this](Time now) {
+  }
+  int corrections = 0;
+
+ private:
+  nav_msgs::msg::Path last_;
+};
+
+/// Sends the scans.
+class Driver : public Component {
+ public:
+  Driver(const ComponentContext& context, const std::vector<test::BlockStep>& steps,
+         const Threads& threads)
+      : Component(context) {
+    scan_ = advertise(topic::scan);
+    every(50ms, [this, &steps, &threads](Time) {
       if (scan_.matched_readers() == 0) return;
-      own_thread_ = gettid();
-      if (next_ == steps_.size()) return stop(0);
-      sensor_msgs::msg::LaserScan message = to_msg(steps_[next_++].scan);
-      message.header(make_header(now, frame::kLaser));
-      const Time stamp = from_msg(message.header().stamp());
-      const ThreadTimes mapper = times_of(mapper_thread_);
-      sent_[stamp] = {this->now(), mapper};
+      if (sent.size() == steps.size()) return stop(0);
+      sensor_msgs::msg::LaserScan message = to_msg(steps[sent.size()].scan);
+      const Moment moment = threads.look(now());
+      message.header(make_header(now(), frame::kLaser));
+      sent.emplace_back(from_msg(message.header().stamp()), moment);
       scan_.publish(message);
     });
   }
-
-  std::vector<Delay> delays;
-  int corrections = 0;
-  std::size_t unanswered() const { return sent_.size(); }
+  std::vector<std::pair<Time, Moment>> sent;
 
  private:
-  struct Sent {
-    Time time;
-    ThreadTimes mapper;
-  };
-
-  void hear(const geometry_msgs::msg::PoseWithCovarianceStamped& pose) {
-    const Time time = now();
-    if (gettid() != own_thread_) mapper_thread_ = gettid();
-    const auto sent = sent_.find(from_msg(pose.header().stamp()));
-    if (sent == sent_.end()) return;
-    const ThreadTimes then = sent->second.mapper, now = times_of(mapper_thread_);
-    if (then.computed > 0.0) {
-      delays.push_back({1e3 * to_seconds(time - sent->second.time),
-                        {now.computed - then.computed, now.waited - then.waited}});
-    }
-    sent_.erase(sent);
-  }
-
-  const std::vector<test::BlockStep>& steps_;
-  std::size_t next_ = 0;
-  std::map<Time, Sent> sent_;
-  pid_t own_thread_ = 0, mapper_thread_ = 0;
-  nav_msgs::msg::Path last_;
   Publisher<sensor_msgs::msg::LaserScan> scan_;
 };
 
-constexpr int kDomain = 74;
-constexpr std::size_t kLongest = 5;  // delays, told one by one
+/// From a scan to its pose.
+struct Delay {
+  double whole = 0.0;  // [ms]
+  ThreadTimes mapper, listener;
+  double others = 0.0;  // computing of all other threads, the back end's before all [ms]
+};
 
-bool drive(const std::vector<test::BlockStep>& steps, const std::string& name,
-           const std::string& parameters) {
+std::vector<Delay> delays_of(const Driver& driver, const Listener& listener) {
+  std::vector<Delay> delays;
+  auto sent = driver.sent.begin();
+  for (const auto& [scan, then] : listener.heard) {
+    while (sent != driver.sent.end() && sent->first < scan) ++sent;
+    if (sent == driver.sent.end()) break;
+    if (sent->first != scan || sent->second.mapper.computed == 0.0) continue;
+    Delay delay;
+    delay.whole = 1e3 * to_seconds(then.time - scan);
+    delay.mapper = then.mapper - sent->second.mapper;
+    delay.listener = then.listener - sent->second.listener;
+    delay.others = then.all - sent->second.all - delay.mapper.computed - delay.listener.computed;
+    delays.push_back(delay);
+  }
+  std::sort(delays.begin(), delays.end(),
+            [](const Delay& a, const Delay& b) { return a.whole < b.whole; });
+  return delays;
+}
+
+/// Of one place and kind of drive, over all rounds.
+struct Series {
+  std::string name;
+  std::vector<double> worst;
+  void tell(const std::vector<Delay>& delays) {
+    const auto at = [&delays](double share) {
+      return delays[static_cast<std::size_t>(share * static_cast<double>(delays.size() - 1))].whole;
+    };
+    worst.push_back(delays.back().whole);
+    fmt::print("  {}: p50 {:.2f} ms, p99 {:.2f}, worst {:.2f}\n", name, at(0.5), at(0.99),
+               worst.back());
+    for (std::size_t i = 0; i < kLongest; ++i) {
+      const Delay& delay = delays[delays.size() - 1 - i];
+      fmt::print(
+          "    {:6.2f} ms: mapper computed {:.2f}, waited for a processor {:.2f}; listener {:.2f}, "
+          "{:.2f}; others computed {:.2f}\n",
+          delay.whole, delay.mapper.computed, delay.mapper.waited, delay.listener.computed,
+          delay.listener.waited, delay.others);
+    }
+  }
+};
+
+struct Kind {
+  std::string name, parameters;
+  Series delivered{"delivered", {}}, received{"received", {}};
+};
+
+bool drive(const std::vector<test::BlockStep>& steps, Kind& kind) {
   HostOptions options;
   options.participant.domain = kDomain;
   Host host(options);
+  Threads threads;
   host.add("lidar_mapper",
-           Config::parse("{slam: true, min_height: 0.0" + parameters + "}", "bench"));
-  auto& driver = host.emplace<Driver>("driver", steps);
+           Config::parse("{slam: true, min_height: 0.0" + kind.parameters + "}", "bench"));
+  const auto& delivered =
+      host.emplace<Listener>("delivered", at_once(topic::lidar_pose), threads, threads.mapper);
+  const auto& received =
+      host.emplace<Listener>("received", topic::lidar_pose, threads, threads.listener);
+  const auto& path = host.emplace<PathWatch>("path_watch");
+  const auto& driver = host.emplace<Driver>("driver", steps, threads);
   if (host.run() != 0) return false;
-  std::vector<Delay>& delays = driver.delays;
-  if (delays.size() < kLongest) return false;
-  std::sort(delays.begin(), delays.end(),
-            [](const Delay& a, const Delay& b) { return a.whole < b.whole; });
-  const auto at = [&delays](double share) {
-    return delays[static_cast<std::size_t>(share * static_cast<double>(delays.size() - 1))].whole;
-  };
-  fmt::print(
-      "{}: lidar/pose after p50 {:.2f} ms, p99 {:.2f} ms, worst {:.2f} ms; {} scans without; the "
-      "past was corrected {} times\n",
-      name, at(0.5), at(0.99), delays.back().whole, driver.unanswered(), driver.corrections);
-  for (std::size_t i = 0; i < kLongest; ++i) {
-    const Delay& delay = delays[delays.size() - 1 - i];
-    fmt::print("  {:6.2f} ms: {:.2f} computing, {:.2f} waiting for a processor, {:.2f} otherwise\n",
-               delay.whole, delay.mapper.computed, delay.mapper.waited,
-               delay.whole - delay.mapper.computed - delay.mapper.waited);
+  const std::vector<Delay> first = delays_of(driver, delivered),
+                           second = delays_of(driver, received);
+  if (std::min(first.size(), second.size()) < kLongest) {
+    fmt::print(stderr,
+               "too few poses, or the kernel does not count times of threads "
+               "(/proc/self/task/*/schedstat)\n");
+    return false;
   }
+  fmt::print("{}: {} scans, {} and {} poses; the past was corrected {} times\n", kind.name,
+             driver.sent.size(), first.size(), second.size(), path.corrections);
+  kind.delivered.tell(first);
+  kind.received.tell(second);
   return true;
 }
 
-int run(double speed) {
-  const std::vector<test::BlockStep> steps = test::drive_around_the_block(speed);
-  fmt::print("{} scans of {} beams, {:.0f} s, twice\n", steps.size(), test::kBlockBeams,
-             static_cast<double>(steps.size()) / test::kBlockRate_hz);
-  const bool driven =
-      drive(steps, "with loops", "") && drive(steps, "with hardly any", ", loop_radius: 0.001");
-  return driven ? 0 : 1;
+int run(int rounds) {
+  const std::vector<test::BlockStep> steps = test::drive_around_the_block(kSpeed);
+  fmt::print("{} scans of {} beams, {:.0f} s, {} times\n", steps.size(), test::kBlockBeams,
+             static_cast<double>(steps.size()) / test::kBlockRate_hz, 2 * rounds);
+  std::vector<Kind> kinds{{"with loops", ""}, {"with hardly any", ", loop_radius: 0.001"}};
+  for (int round = 0; round < rounds; ++round) {
+    for (Kind& kind : kinds) {
+      if (!drive(steps, kind)) return 1;
+    }
+  }
+  for (Kind& kind : kinds) {
+    for (Series* series : {&kind.delivered, &kind.received}) {
+      std::sort(series->worst.begin(), series->worst.end());
+      fmt::print("{}, {}: worst of a drive {:.2f} to {:.2f} ms, median {:.2f}\n", kind.name,
+                 series->name, series->worst.front(), series->worst.back(),
+                 series->worst[series->worst.size() / 2]);
+    }
+  }
+  return 0;
 }
 
 }  // namespace
 }  // namespace swiftlet
 
 int main(int argc, char** argv) {
-  return swiftlet::run(argc > 1 ? std::atof(argv[1]) : 1.6);
+  return swiftlet::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 3);
 }
