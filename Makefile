@@ -74,7 +74,7 @@ bench-chain: build
 
 bench-slam: build
 	@cmake --build --preset release --parallel $(JOBS) --target slam_live_bench
-	@echo "== bench: scan to pose while loops are closed (six minutes)"
+	@echo "== bench: scan to pose while loops are closed (seven minutes)"
 	@build/release/slam_live_bench
 
 bench-screen: build

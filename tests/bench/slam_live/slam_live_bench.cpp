@@ -4,8 +4,9 @@
 // slam_live_bench [ROUNDS]: how long a scan takes to its pose in real time, 1000 beams at 20 Hz
 // around a block without odometry: with loops that are closed beside, and with hardly any, in turn.
 // The pose is heard as it is delivered, in the mapper's thread, and by a component that does
-// nothing else, in its own. Says of the longest delays what those threads did meanwhile: whether
-// they computed, waited for a processor, or were held up by something else.
+// nothing else, in its own. Says of the longest delays what those threads did meanwhile, and for
+// how long a processor stood still, which no program can help. For that it needs real-time
+// priority.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@
 #include "components/surroundings/scan_message.hpp"
 #include "components/topics.hpp"
 #include "tests/bench/block_drive.hpp"
+#include "tests/bench/slam_live/standstill_watch.hpp"
 
 namespace swiftlet {
 namespace {
@@ -29,8 +31,13 @@ using namespace std::chrono_literals;
 using geometry_msgs::msg::PoseWithCovarianceStamped;
 
 constexpr int kDomain = 74;
+constexpr auto kRest = 20s;
 constexpr double kSpeed = 1.6;       // [m/s]
 constexpr std::size_t kLongest = 5;  // delays of each kind, told one by one
+
+double milliseconds(const StandstillWatch::Span& span) {
+  return std::chrono::duration<double, std::milli>(span.second - span.first).count();
+}
 
 /// What the kernel counts of a thread [ms]. Waiting that began before a scan is counted whole when
 /// it ends.
@@ -56,7 +63,7 @@ double computed_by_all() {
 
 /// One moment, as the bench sees it.
 struct Moment {
-  Time time;
+  StandstillWatch::Clock::time_point time;
   ThreadTimes mapper, listener;
   double all = 0.0;
 };
@@ -64,7 +71,7 @@ struct Moment {
 /// The mapper's thread and a listener's; 0 before they are known.
 struct Threads {
   std::atomic<pid_t> mapper{0}, listener{0};
-  Moment look(Time now) const {
+  Moment look(StandstillWatch::Clock::time_point now) const {
     return {now, times_of(mapper), times_of(listener), computed_by_all()};
   }
 };
@@ -76,7 +83,7 @@ class Listener : public Component {
            const Threads& threads, std::atomic<pid_t>& thread)
       : Component(context) {
     subscribe(topic, [this, &threads, &thread](const PoseWithCovarianceStamped& pose) {
-      const Time time = now();
+      const auto time = StandstillWatch::Clock::now();
       thread = gettid();
       heard.emplace_back(from_msg(pose.header().stamp()), threads.look(time));
     });
@@ -116,7 +123,7 @@ class Driver : public Component {
       if (scan_.matched_readers() == 0) return;
       if (sent.size() == steps.size()) return stop(0);
       sensor_msgs::msg::LaserScan message = to_msg(steps[sent.size()].scan);
-      const Moment moment = threads.look(now());
+      const Moment moment = threads.look(StandstillWatch::Clock::now());
       message.header(make_header(now(), frame::kLaser));
       sent.emplace_back(from_msg(message.header().stamp()), moment);
       scan_.publish(message);
@@ -131,11 +138,13 @@ class Driver : public Component {
 /// From a scan to its pose.
 struct Delay {
   double whole = 0.0;  // [ms]
+  double still = 0.0;  // of it a processor stood still [ms]
   ThreadTimes mapper, listener;
   double others = 0.0;  // computing of all other threads, the back end's before all [ms]
 };
 
-std::vector<Delay> delays_of(const Driver& driver, const Listener& listener) {
+std::vector<Delay> delays_of(const Driver& driver, const Listener& listener,
+                             const StandstillWatch& watch) {
   std::vector<Delay> delays;
   auto sent = driver.sent.begin();
   for (const auto& [scan, then] : listener.heard) {
@@ -143,7 +152,8 @@ std::vector<Delay> delays_of(const Driver& driver, const Listener& listener) {
     if (sent == driver.sent.end()) break;
     if (sent->first != scan || sent->second.mapper.computed == 0.0) continue;
     Delay delay;
-    delay.whole = 1e3 * to_seconds(then.time - scan);
+    delay.whole = milliseconds({sent->second.time, then.time});
+    delay.still = watch.within({sent->second.time, then.time});
     delay.mapper = then.mapper - sent->second.mapper;
     delay.listener = then.listener - sent->second.listener;
     delay.others = then.all - sent->second.all - delay.mapper.computed - delay.listener.computed;
@@ -154,32 +164,73 @@ std::vector<Delay> delays_of(const Driver& driver, const Listener& listener) {
   return delays;
 }
 
+void tell(const StandstillWatch& watch) {
+  double sum = 0.0, longest = 0.0;
+  for (const auto& span : watch.spans()) {
+    sum += milliseconds(span);
+    longest = std::max(longest, milliseconds(span));
+  }
+  fmt::print("  a processor stood still {} times, {:.1f} ms in all, {:.2f} ms at most\n",
+             watch.spans().size(), sum, longest);
+}
+
 /// Of one place and kind of drive, over all rounds.
 struct Series {
   std::string name;
-  std::vector<double> worst;
-  void tell(const std::vector<Delay>& delays) {
+  std::vector<double> worst, worst_of_ours;
+
+  void add(const std::vector<Delay>& delays) {
     const auto at = [&delays](double share) {
       return delays[static_cast<std::size_t>(share * static_cast<double>(delays.size() - 1))].whole;
     };
     worst.push_back(delays.back().whole);
-    fmt::print("  {}: p50 {:.2f} ms, p99 {:.2f}, worst {:.2f}\n", name, at(0.5), at(0.99),
-               worst.back());
+    worst_of_ours.push_back(0.0);
+    for (const Delay& delay : delays) {
+      worst_of_ours.back() = std::max(worst_of_ours.back(), delay.whole - delay.still);
+    }
+    fmt::print("  {}: p50 {:.2f} ms, p99 {:.2f}, worst {:.2f}, without standstills {:.2f}\n", name,
+               at(0.5), at(0.99), worst.back(), worst_of_ours.back());
     for (std::size_t i = 0; i < kLongest; ++i) {
       const Delay& delay = delays[delays.size() - 1 - i];
       fmt::print(
-          "    {:6.2f} ms: mapper computed {:.2f}, waited for a processor {:.2f}; listener {:.2f}, "
-          "{:.2f}; others computed {:.2f}\n",
-          delay.whole, delay.mapper.computed, delay.mapper.waited, delay.listener.computed,
-          delay.listener.waited, delay.others);
+          "    {:6.2f} ms: a processor stood still {:.2f}; mapper computed {:.2f}, waited for a "
+          "processor {:.2f}; listener {:.2f}, {:.2f}; others computed {:.2f}\n",
+          delay.whole, delay.still, delay.mapper.computed, delay.mapper.waited,
+          delay.listener.computed, delay.listener.waited, delay.others);
     }
+  }
+  void sum_up(const std::string& kind) {
+    const auto range = [](std::vector<double> values) {
+      std::sort(values.begin(), values.end());
+      return fmt::format("{:.2f} to {:.2f} ms, median {:.2f}", values.front(), values.back(),
+                         values[values.size() / 2]);
+    };
+    fmt::print("{}, {}: worst of a drive {}; without standstills {}\n", kind, name, range(worst),
+               range(worst_of_ours));
   }
 };
 
 struct Kind {
   std::string name, parameters;
-  Series delivered{"delivered", {}}, received{"received", {}};
+  Series delivered{"delivered", {}, {}}, received{"received", {}, {}};
 };
+
+bool no_priority() {
+  fmt::print(stderr,
+             "no real-time priority, so that nobody can tell when a processor stands still: run it "
+             "as root, or allow it with `ulimit -r 99`\n");
+  return false;
+}
+
+/// How often processors stand still while nothing runs.
+bool rest() {
+  StandstillWatch watch;
+  std::this_thread::sleep_for(kRest);
+  if (!watch.finish()) return no_priority();
+  fmt::print("at rest, {} s\n", kRest.count());
+  tell(watch);
+  return true;
+}
 
 bool drive(const std::vector<test::BlockStep>& steps, Kind& kind) {
   HostOptions options;
@@ -194,9 +245,11 @@ bool drive(const std::vector<test::BlockStep>& steps, Kind& kind) {
       host.emplace<Listener>("received", topic::lidar_pose, threads, threads.listener);
   const auto& path = host.emplace<PathWatch>("path_watch");
   const auto& driver = host.emplace<Driver>("driver", steps, threads);
+  StandstillWatch watch;
   if (host.run() != 0) return false;
-  const std::vector<Delay> first = delays_of(driver, delivered),
-                           second = delays_of(driver, received);
+  if (!watch.finish()) return no_priority();
+  const std::vector<Delay> first = delays_of(driver, delivered, watch),
+                           second = delays_of(driver, received, watch);
   if (std::min(first.size(), second.size()) < kLongest) {
     fmt::print(stderr,
                "too few poses, or the kernel does not count times of threads "
@@ -205,8 +258,9 @@ bool drive(const std::vector<test::BlockStep>& steps, Kind& kind) {
   }
   fmt::print("{}: {} scans, {} and {} poses; the past was corrected {} times\n", kind.name,
              driver.sent.size(), first.size(), second.size(), path.corrections);
-  kind.delivered.tell(first);
-  kind.received.tell(second);
+  tell(watch);
+  kind.delivered.add(first);
+  kind.received.add(second);
   return true;
 }
 
@@ -216,17 +270,13 @@ int run(int rounds) {
              static_cast<double>(steps.size()) / test::kBlockRate_hz, 2 * rounds);
   std::vector<Kind> kinds{{"with loops", ""}, {"with hardly any", ", loop_radius: 0.001"}};
   for (int round = 0; round < rounds; ++round) {
+    if (!rest()) return 1;
     for (Kind& kind : kinds) {
       if (!drive(steps, kind)) return 1;
     }
   }
   for (Kind& kind : kinds) {
-    for (Series* series : {&kind.delivered, &kind.received}) {
-      std::sort(series->worst.begin(), series->worst.end());
-      fmt::print("{}, {}: worst of a drive {:.2f} to {:.2f} ms, median {:.2f}\n", kind.name,
-                 series->name, series->worst.front(), series->worst.back(),
-                 series->worst[series->worst.size() / 2]);
-    }
+    for (Series* series : {&kind.delivered, &kind.received}) series->sum_up(kind.name);
   }
   return 0;
 }
