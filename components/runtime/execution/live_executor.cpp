@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "components/runtime/execution/executor.hpp"
+#include "components/runtime/execution/real_time.hpp"
 #include "components/runtime/execution/signals.hpp"
 #include "components/runtime/execution/stuck_watch.hpp"
 #include "components/runtime/execution/timers.hpp"
@@ -92,6 +93,8 @@ constexpr auto kShort = std::chrono::milliseconds(1);
 
 class LiveExecutor : public Executor {
  public:
+  LiveExecutor() { keep_memory(); }
+
   std::unique_ptr<Mailbox> make_mailbox(const std::string& component) override {
     auto mailbox = std::make_unique<LiveMailbox>(*this, component);
     mailboxes_.push_back(mailbox.get());

@@ -3,10 +3,12 @@
 #include "components/runtime/execution/real_time.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 
 #include <cerrno>
+#include <limits>
 #include <system_error>
 
 namespace swiftlet {
@@ -37,10 +39,19 @@ Status lock_memory() {
       text_of(errno))};
 }
 
+/// The most that malloc takes for this: larger blocks are mapped one by one [B].
+constexpr int kLargestKept = 32 << 20;
+
 }  // namespace
 
 RealTimeGrant ask_for_real_time(int priority) {
   return {schedule(priority), lock_memory()};
+}
+
+void keep_memory() {
+  // Refused only by allocators that have no such settings.
+  (void)mallopt(M_MMAP_THRESHOLD, kLargestKept);
+  (void)mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
 }  // namespace swiftlet

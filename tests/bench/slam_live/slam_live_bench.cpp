@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <string>
 #include <vector>
 
 #include "components/conversions.hpp"
@@ -44,15 +45,25 @@ double milliseconds(const StandstillWatch::Span& span) {
 struct ThreadTimes {
   double computed = 0.0;
   double waited = 0.0;  // for a processor
+  long faults = 0;      // pages that it touched for the first time
 };
 ThreadTimes operator-(const ThreadTimes& a, const ThreadTimes& b) {
-  return {a.computed - b.computed, a.waited - b.waited};
+  return {a.computed - b.computed, a.waited - b.waited, a.faults - b.faults};
+}
+long page_faults_of(pid_t thread) {
+  std::ifstream file(fmt::format("/proc/self/task/{}/stat", thread));
+  std::string field;
+  std::getline(file, field, ')');  // number and name
+  for (int i = 0; i < 7; ++i) file >> field;
+  long faults = 0;
+  file >> faults;
+  return faults;
 }
 ThreadTimes times_of(pid_t thread) {
   std::ifstream file(fmt::format("/proc/self/task/{}/schedstat", thread));
   double computed_ns = 0.0, waited_ns = 0.0;
   file >> computed_ns >> waited_ns;
-  return {computed_ns * 1e-6, waited_ns * 1e-6};
+  return {computed_ns * 1e-6, waited_ns * 1e-6, page_faults_of(thread)};
 }
 /// Of all threads together [ms].
 double computed_by_all() {
@@ -193,9 +204,10 @@ struct Series {
     for (std::size_t i = 0; i < kLongest; ++i) {
       const Delay& delay = delays[delays.size() - 1 - i];
       fmt::print(
-          "    {:6.2f} ms: a processor stood still {:.2f}; mapper computed {:.2f}, waited for a "
-          "processor {:.2f}; listener {:.2f}, {:.2f}; others computed {:.2f}\n",
-          delay.whole, delay.still, delay.mapper.computed, delay.mapper.waited,
+          "    {:6.2f} ms: a processor stood still {:.2f}; mapper computed {:.2f}, {} page "
+          "faults, waited for a processor {:.2f}; listener {:.2f}, {:.2f}; others computed "
+          "{:.2f}\n",
+          delay.whole, delay.still, delay.mapper.computed, delay.mapper.faults, delay.mapper.waited,
           delay.listener.computed, delay.listener.waited, delay.others);
     }
   }

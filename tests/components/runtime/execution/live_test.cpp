@@ -3,12 +3,15 @@
 // Components on the live executor: threads and the system's clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <csignal>
 #include <set>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "all_messages.hpp"
 #include "components/runtime/host.hpp"
@@ -247,6 +250,40 @@ TEST(Live, AnExceptionAtOnceEndsTheRunWithExitCode1) {
   host.emplace<ThrowerAtOnce>("thrower");
   host.emplace<Talker>("talker", 10);
   EXPECT_EQ(host.run(), 1);
+}
+
+/// Uses a lot of memory in each callback and gives it back.
+struct Spender : Component {
+  explicit Spender(const ComponentContext& context) : Component(context) {
+    every(1ms, [this](Time) {
+      const long before = page_faults();
+      for (int i = 0; i < 4; ++i) blocks_.emplace_back(kBlock, 'x');
+      blocks_.clear();
+      faults.push_back(page_faults() - before);
+      if (faults.size() == 5) stop(0);
+    });
+  }
+  static constexpr std::size_t kBlock = 4 << 20;
+  std::vector<long> faults;  // of each callback
+
+ private:
+  static long page_faults() {
+    rusage usage{};
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_minflt;
+  }
+  std::vector<std::string> blocks_;
+};
+
+TEST(Live, MemoryIsTouchedAnewOnlyOnce) {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer's allocator is another";
+#endif
+  Host host(live("v"));
+  const auto& spender = host.emplace<Spender>("spender");
+  ASSERT_EQ(host.run(), 0);
+  EXPECT_GE(spender.faults.front(), 4) << "it was new once";
+  EXPECT_LT(spender.faults.back(), 16) << "of " << 4 * Spender::kBlock / 4096 << " pages";
 }
 
 }  // namespace
