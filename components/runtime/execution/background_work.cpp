@@ -3,11 +3,17 @@
 #include "components/runtime/execution/background_work.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <cassert>
 #include <utility>
 
 namespace swiftlet {
+namespace {
+
+constexpr int kNice = 10;  // a tenth of a processor that callbacks want, too: it never starves
+
+}  // namespace
 
 BackgroundWork::~BackgroundWork() {
   {
@@ -37,6 +43,7 @@ void BackgroundWork::serve() {
   // A thread inherits its maker's scheduling; less may always be asked for.
   const sched_param ordinary{};
   (void)sched_setscheduler(0, SCHED_OTHER, &ordinary);
+  (void)nice(kNice);  // of this thread alone
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return next_ != nullptr || ends_; });

@@ -22,9 +22,10 @@ namespace swiftlet {
 ///     if (optimizer_.idle()) optimizer_.start([job] { return optimize(job); },
 ///                                             [this](Poses poses) { apply(poses); });
 ///
-/// What the work needs is handed to it by value; nothing else is safe there. It has ordinary
-/// scheduling in a real-time process, too, and no callback waits for its thread to end: a result is
-/// posted when all that the work had is given back. The work's exceptions are the component's.
+/// What the work needs is handed to it by value; nothing else is safe there. Callbacks come first
+/// where both want the same processor: the work has ordinary scheduling in a real-time process,
+/// too, and is nice (10) in any. No callback waits for its thread to end: a result is posted when
+/// all that the work had is given back. The work's exceptions are the component's.
 class BackgroundWork : private Task {
  public:
   BackgroundWork(Mailbox& mailbox, const Executor& executor)

@@ -4,9 +4,9 @@
 // slam_live_bench [ROUNDS]: how long a scan takes to its pose in real time, 1000 beams at 20 Hz
 // around a block without odometry: with loops that are closed beside, and with hardly any, in turn.
 // The pose is heard as it is delivered, in the mapper's thread, and by a component that does
-// nothing else, in its own. Says of the longest delays what those threads did meanwhile, and for
-// how long a processor stood still, which no program can help. For that it needs real-time
-// priority.
+// nothing else, in its own. Says of the longest delays what those threads did meanwhile, how much
+// of them the program's other threads can have caused, and for how long a processor stood still,
+// which no program can help. For that it needs real-time priority.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -152,6 +152,12 @@ struct Delay {
   double still = 0.0;  // of it a processor stood still [ms]
   ThreadTimes mapper, listener;
   double others = 0.0;  // computing of all other threads, the back end's before all [ms]
+
+  double without_standstills() const { return whole - still; }
+  /// At most how long it waited for a processor that another thread had [ms].
+  double behind_others() const {
+    return std::max(0.0, std::min(mapper.waited + listener.waited - still, others));
+  }
 };
 
 std::vector<Delay> delays_of(const Driver& driver, const Listener& listener,
@@ -188,19 +194,25 @@ void tell(const StandstillWatch& watch) {
 /// Of one place and kind of drive, over all rounds.
 struct Series {
   std::string name;
-  std::vector<double> worst, worst_of_ours;
+  std::vector<double> worst, worst_without_standstills, most_behind_others;
 
   void add(const std::vector<Delay>& delays) {
     const auto at = [&delays](double share) {
       return delays[static_cast<std::size_t>(share * static_cast<double>(delays.size() - 1))].whole;
     };
+    const auto most = [&delays](auto part) {
+      double longest = 0.0;
+      for (const Delay& delay : delays) longest = std::max(longest, (delay.*part)());
+      return longest;
+    };
     worst.push_back(delays.back().whole);
-    worst_of_ours.push_back(0.0);
-    for (const Delay& delay : delays) {
-      worst_of_ours.back() = std::max(worst_of_ours.back(), delay.whole - delay.still);
-    }
-    fmt::print("  {}: p50 {:.2f} ms, p99 {:.2f}, worst {:.2f}, without standstills {:.2f}\n", name,
-               at(0.5), at(0.99), worst.back(), worst_of_ours.back());
+    worst_without_standstills.push_back(most(&Delay::without_standstills));
+    most_behind_others.push_back(most(&Delay::behind_others));
+    fmt::print(
+        "  {}: p50 {:.2f} ms, p99 {:.2f}, worst {:.2f}, without standstills {:.2f}; waited behind "
+        "other threads {:.2f} at most\n",
+        name, at(0.5), at(0.99), worst.back(), worst_without_standstills.back(),
+        most_behind_others.back());
     for (std::size_t i = 0; i < kLongest; ++i) {
       const Delay& delay = delays[delays.size() - 1 - i];
       fmt::print(
@@ -217,14 +229,15 @@ struct Series {
       return fmt::format("{:.2f} to {:.2f} ms, median {:.2f}", values.front(), values.back(),
                          values[values.size() / 2]);
     };
-    fmt::print("{}, {}: worst of a drive {}; without standstills {}\n", kind, name, range(worst),
-               range(worst_of_ours));
+    fmt::print(
+        "{}, {}: worst of a drive {}; without standstills {}; waited behind other threads {}\n",
+        kind, name, range(worst), range(worst_without_standstills), range(most_behind_others));
   }
 };
 
 struct Kind {
   std::string name, parameters;
-  Series delivered{"delivered", {}, {}}, received{"received", {}, {}};
+  Series delivered{"delivered", {}, {}, {}}, received{"received", {}, {}, {}};
 };
 
 bool no_priority() {

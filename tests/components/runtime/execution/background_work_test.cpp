@@ -3,9 +3,12 @@
 #include "components/runtime/execution/background_work.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <atomic>
 #include <condition_variable>
+#include <ctime>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -160,6 +163,64 @@ TEST(BackgroundWork, ResultsWaitForWhatWasHandedOverButNotForTheThread) {
   EXPECT_EQ(host.run(), 0);
   EXPECT_TRUE(lingering.given_back);
   EXPECT_FALSE(Lingering::waited_in_vain) << "a callback joined the thread";
+}
+
+/// Processor time of a thread.
+std::chrono::nanoseconds computed(pthread_t thread) {
+  clockid_t clock{};
+  timespec time{};
+  if (pthread_getcpuclockid(thread, &clock) != 0 || clock_gettime(clock, &time) != 0) {
+    throw std::runtime_error("no clock of the thread's processor time");
+  }
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// A callback and work in the background that compute on one processor.
+struct Rivals : Component {
+  explicit Rivals(const ComponentContext& context) : Component(context) {
+    every(1ms, [this](Time) {
+      if (callback != 0ms || !work_.idle()) return;
+      const int processor = sched_getcpu();
+      work_.start(
+          [this, processor] {
+            stay_on(processor);
+            work_thread_ = pthread_self();
+            begun_.open();
+            while (!ended_) continue;
+            return 0;
+          },
+          [this](int) { stop(0); });
+      stay_on(processor);
+      ASSERT_TRUE(begun_.wait());
+      const auto begin = computed(pthread_self()), begin_of_work = computed(work_thread_);
+      while (computed(pthread_self()) < begin + 500ms) continue;
+      callback = computed(pthread_self()) - begin;
+      work = computed(work_thread_) - begin_of_work;
+      ended_ = true;
+    });
+  }
+  std::chrono::nanoseconds callback{0}, work{0};
+
+ private:
+  static void stay_on(int processor) {
+    cpu_set_t processors;
+    CPU_ZERO(&processors);
+    CPU_SET(processor, &processors);
+    ASSERT_EQ(sched_setaffinity(0, sizeof(processors), &processors), 0);
+  }
+  pthread_t work_thread_{};
+  std::atomic<bool> ended_{false};
+  Latch begun_;
+  BackgroundWork work_{mailbox(), *context().executor};
+};
+
+TEST(BackgroundWork, CallbacksComeFirstOnAProcessorThatBothWant) {
+  Host host(options(false));
+  auto& rivals = host.emplace<Rivals>("rivals");
+  EXPECT_EQ(host.run(), 0);
+  EXPECT_GE(rivals.callback.count(), 500'000'000);
+  EXPECT_GT(rivals.work.count(), 0) << "it must not starve";
+  EXPECT_LT(rivals.work.count(), rivals.callback.count() / 3);
 }
 
 struct Breaking : Component {
