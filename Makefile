@@ -100,8 +100,12 @@ fuzz: packages
 format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-tidy: build
-	@git ls-files '*.cpp' | grep -v '^tests/' | xargs clang-tidy -p build/release --quiet
+tidy: packages build/tidy/build.ninja
+	@echo "== build: $@"
+	@cmake --build --preset $@ --parallel $(JOBS)
+	@echo "== clang-tidy"
+	@git ls-files '*.cpp' | grep -v '^tests/' \
+	  | xargs -P $(JOBS) -n 1 clang-tidy -p build/$@ --quiet --extra-arg=-Qunused-arguments
 
 clean:
 	rm -rf build out
