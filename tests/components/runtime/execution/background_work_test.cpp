@@ -191,7 +191,10 @@ struct Rivals : Component {
           },
           [this](int) { stop(0); });
       stay_on(processor);
-      ASSERT_TRUE(begun_.wait());
+      if (!begun_.wait()) {
+        ended_ = true;
+        return stop(1);
+      }
       const auto begin = computed(pthread_self()), begin_of_work = computed(work_thread_);
       while (computed(pthread_self()) < begin + 500ms) continue;
       callback = computed(pthread_self()) - begin;
